@@ -1,0 +1,30 @@
+# How every target of Facet is built.
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
+# Warnings are errors, and no a*b+c is contracted into an fma: float results must not depend on
+# the compiler (cl/ says the same with FP_CONTRACT OFF).
+add_library(facet_options INTERFACE)
+target_compile_features(facet_options INTERFACE cxx_std_20)
+target_compile_options(facet_options INTERFACE
+  $<BUILD_INTERFACE:-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror>
+  -ffp-contract=off)
+if(FACET_SANITIZE)
+  target_compile_options(facet_options INTERFACE
+    -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+  target_link_options(facet_options INTERFACE -fsanitize=address,undefined)
+endif()
+
+# facet_library(NAME SOURCES ... LINKS ...): one folder of host/, included as "FOLDER/file.hpp".
+function(facet_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
+  add_library(facet_${name} STATIC ${ARG_SOURCES})
+  add_library(facet::${name} ALIAS facet_${name})
+  set_target_properties(facet_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  target_include_directories(facet_${name} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/host> $<INSTALL_INTERFACE:include/facet>)
+  target_link_libraries(facet_${name} PUBLIC facet_options ${ARG_LINKS} PRIVATE ${ARG_PRIVATE_LINKS})
+endfunction()

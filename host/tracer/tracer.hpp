@@ -1,0 +1,100 @@
+// The device ray tracer, as a caller sees it: a scene goes to a device once, then pictures and
+// hits come back.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "runtime/queue.hpp"
+#include "scene/picture.hpp"
+#include "scene/scene.hpp"
+
+namespace facet::tracer {
+
+enum class tree_kind { none, levels };
+enum class geometry_kind { automatic, buffer, image };
+
+struct options {
+  tree_kind tree = tree_kind::levels;
+  geometry_kind geometry = geometry_kind::automatic;
+  std::uint32_t group_width = 0, group_height = 0;  ///< work-group; 0: the device's default
+  std::uint32_t tile_width = 0, tile_height = 0;    ///< pixels a launch; 0: about 50 ms each
+  bool all_features = false;  ///< compile what the scene does not need, too
+  std::string kernel_folder;  ///< read cl/ from here, not from the library
+};
+
+/// One ray of `trace`: 32 bytes, as in the file format of `facet trace`.
+struct ray {
+  float origin[3];
+  float tmin;
+  float direction[3];  ///< any length; t counts in its units
+  float tmax;
+};
+
+inline constexpr std::uint32_t miss = 0xffffffffu;
+
+/// The canonical hit: the smallest (t, instance, triangle) with tmin <= t <= tmax.
+/// The point is (1-u-v)*p0 + u*p1 + v*p2. A miss has instance and triangle `miss`, t = tmax, u = v = 0.
+struct hit {
+  float t, u, v;
+  std::uint32_t instance, triangle;
+};
+
+/// Times in milliseconds: device times from events, compile and wall times from the host's clock.
+struct statistics {
+  std::string device, platform, driver;
+  double compile_ms = 0;   ///< programs, all of them
+  double upload_ms = 0;    ///< packing and moving the scene, host clock
+  double build_ms = 0;     ///< tree, host clock from first launch to last
+  std::vector<double> kernel_ms;  ///< trace: one a repeat; render: the sum over the tiles, once
+  double wall_ms = 0;      ///< launching until the result is on the host
+  std::uint64_t rays = 0;  ///< trace: those given; render: eye rays
+  std::uint32_t group_width = 0, group_height = 0;
+  std::uint32_t tiles = 0;
+  std::string geometry;    ///< "image" or "buffer", as chosen
+  std::string features;    ///< what the kernel was compiled with, comma-separated
+  std::uint32_t tree_depth = 0;
+  std::uint64_t tree_nodes = 0;
+  std::uint64_t device_bytes = 0;
+};
+
+/// Called after each tile with done and total pixels.
+using progress = std::function<void(std::uint64_t done, std::uint64_t total)>;
+
+/// Thrown out of render when `cancel` became true: the tile under way was finished, the rest not.
+struct cancelled : std::runtime_error {
+  std::uint64_t done, total;  ///< pixels
+  cancelled(std::uint64_t done, std::uint64_t total)
+      : std::runtime_error("cancelled"), done(done), total(total) {}
+};
+
+/// A scene on a device: packed, its tree built. Throws runtime::exception for what the device
+/// refuses (a work-group too large, memory that does not fit, a compile error), with the figures.
+class device_scene {
+ public:
+  device_scene(runtime::queue queue, const scene& s, options o = {});
+  ~device_scene();
+  device_scene(device_scene&&) noexcept;
+  device_scene& operator=(device_scene&&) noexcept;
+
+  /// Renders scene's camera at width x height. `stats` may be null.
+  picture render(std::uint32_t width, std::uint32_t height, std::uint32_t max_depth,
+                 statistics* stats = nullptr, const progress& on_progress = {},
+                 const std::atomic<bool>* cancel = nullptr);
+
+  /// Traces `rays`; `any` stops at the first accepted triangle and fills only instance and
+  /// triangle with 0 for a hit (which one is not defined), t, u, v with 0.
+  std::vector<hit> trace(std::span<const ray> rays, bool any = false, unsigned repeat = 1,
+                         statistics* stats = nullptr);
+
+ private:
+  struct state;
+  std::unique_ptr<state> state_;
+};
+
+}  // namespace facet::tracer
