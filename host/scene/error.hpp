@@ -14,13 +14,16 @@ class scene_error : public std::runtime_error {
       : std::runtime_error((file.empty() ? "" : file + ": ") + (place.empty() ? "" : place + ": ") +
                            what),
         file_(file),
-        place_(place) {}
+        place_(place),
+        message_(what) {}
 
   const std::string& file() const noexcept { return file_; }
   const std::string& place() const noexcept { return place_; }
+  /// what() without file and place.
+  const std::string& message() const noexcept { return message_; }
 
  private:
-  std::string file_, place_;
+  std::string file_, place_, message_;
 };
 
 }  // namespace facet

@@ -13,8 +13,8 @@ struct picture {
   std::vector<float> rgba;
 
   picture() = default;
-  picture(std::uint32_t width, std::uint32_t height)
-      : width(width), height(height), rgba(std::size_t(width) * height * 4) {}
+  picture(std::uint32_t columns, std::uint32_t rows)
+      : width(columns), height(rows), rgba(std::size_t(columns) * rows * 4) {}
 
   float* at(std::uint32_t x, std::uint32_t y) { return &rgba[(std::size_t(y) * width + x) * 4]; }
   const float* at(std::uint32_t x, std::uint32_t y) const {

@@ -15,14 +15,15 @@ namespace facet {
 
 /// Hard limits, checked before anything is allocated.
 namespace limits {
-inline constexpr float coordinate = 1e18f;           ///< largest |position| that a mesh may have
-inline constexpr std::size_t triangles = 1u << 27;   ///< in one scene, instances not multiplied
+inline constexpr float coordinate = 1e18f;          ///< largest |position| that a mesh may have
+inline constexpr std::size_t triangles = 1u << 27;  ///< in one scene, instances not multiplied
 inline constexpr std::size_t instances = 1u << 24;
 inline constexpr std::size_t materials = 1u << 20;
 inline constexpr std::size_t lights = 1024;
+inline constexpr std::size_t scene_file = 256u << 20;  ///< bytes of a .json file
 inline constexpr std::uint32_t image_side = 32768;
 inline constexpr std::uint32_t max_depth = 64;
-inline constexpr std::uint32_t samples = 16;         ///< a side of a pixel
+inline constexpr std::uint32_t samples = 16;  ///< a side of a pixel
 }  // namespace limits
 
 /// A pinhole camera. The picture's vertical angle is `vertical_fov`; x grows to the right.

@@ -14,7 +14,7 @@ struct vec3 {
   T x{}, y{}, z{};
 
   constexpr vec3() = default;
-  constexpr vec3(T x, T y, T z) : x(x), y(y), z(z) {}
+  constexpr vec3(T x_, T y_, T z_) : x(x_), y(y_), z(z_) {}
   template <class U>
   constexpr explicit vec3(const vec3<U>& v) : x(T(v.x)), y(T(v.y)), z(T(v.z)) {}
 
