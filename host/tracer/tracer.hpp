@@ -24,8 +24,8 @@ struct options {
   geometry_kind geometry = geometry_kind::automatic;
   std::uint32_t group_width = 0, group_height = 0;  ///< work-group; 0: the device's default
   std::uint32_t tile_width = 0, tile_height = 0;    ///< pixels a launch; 0: about 50 ms each
-  bool all_features = false;  ///< compile what the scene does not need, too
-  std::string kernel_folder;  ///< read cl/ from here, not from the library
+  bool all_features = false;                        ///< compile what the scene does not need, too
+  std::string kernel_folder;                        ///< read cl/ from here, not from the library
 };
 
 /// One ray of `trace`: 32 bytes, as in the file format of `facet trace`.
@@ -39,7 +39,8 @@ struct ray {
 inline constexpr std::uint32_t miss = 0xffffffffu;
 
 /// The canonical hit: the smallest (t, instance, triangle) with tmin <= t <= tmax.
-/// The point is (1-u-v)*p0 + u*p1 + v*p2. A miss has instance and triangle `miss`, t = tmax, u = v = 0.
+/// The point is (1-u-v)*p0 + u*p1 + v*p2. A miss has instance and triangle `miss`, t = tmax, u = v
+/// = 0.
 struct hit {
   float t, u, v;
   std::uint32_t instance, triangle;
@@ -48,16 +49,16 @@ struct hit {
 /// Times in milliseconds: device times from events, compile and wall times from the host's clock.
 struct statistics {
   std::string device, platform, driver;
-  double compile_ms = 0;   ///< programs, all of them
-  double upload_ms = 0;    ///< packing and moving the scene, host clock
-  double build_ms = 0;     ///< tree, host clock from first launch to last
+  double compile_ms = 0;          ///< programs, all of them
+  double upload_ms = 0;           ///< packing and moving the scene, host clock
+  double build_ms = 0;            ///< tree, host clock from first launch to last
   std::vector<double> kernel_ms;  ///< trace: one a repeat; render: the sum over the tiles, once
-  double wall_ms = 0;      ///< launching until the result is on the host
-  std::uint64_t rays = 0;  ///< trace: those given; render: eye rays
+  double wall_ms = 0;             ///< launching until the result is on the host
+  std::uint64_t rays = 0;         ///< trace: those given; render: eye rays
   std::uint32_t group_width = 0, group_height = 0;
   std::uint32_t tiles = 0;
-  std::string geometry;    ///< "image" or "buffer", as chosen
-  std::string features;    ///< what the kernel was compiled with, comma-separated
+  std::string geometry;  ///< "image" or "buffer", as chosen
+  std::string features;  ///< what the kernel was compiled with, comma-separated
   std::uint32_t tree_depth = 0;
   std::uint64_t tree_nodes = 0;
   std::uint64_t device_bytes = 0;

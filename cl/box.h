@@ -1,0 +1,81 @@
+// Slab intervals of boxes along a ray, padded so that no rounding can lose a hit.
+//
+// The interval of a box is [max_i fma(near_i, inv_i, near_offset_i), min_i fma(far_i, inv_i,
+// far_offset_i)]; a triangle's t is clamped into the interval of the triangle's own box. Every
+// operation is monotone in the box's faces and the offsets are the ray's alone: the interval of
+// a node holds those of all boxes inside it, bit for bit, in whichever tree it stands. A node
+// may therefore be left out when its near end is beyond the best t (but not at equality), when its
+// far end is before tmin, or when it is empty, and no tree can change the hit.
+//
+// The pad of 16 u E, with E the largest |origin| + |face| of any axis and u = 2^-24, covers the
+// rounding here (inv, o * inv, both offsets, the fma: 4u|o| + 2u|face|), that of the triangle
+// test's shear (2u of its own axis and 4u of the main one) and the change of directions that are
+// nearly 0 below. It is absolute in space: a relative one loses hits on edges that lie in a
+// box's face while their ends are far from the ray.
+#ifndef FACET_BOX_H
+#define FACET_BOX_H
+
+#include "vec.h"
+
+typedef struct {
+  float3 inverse;
+  float3 near_offset, far_offset;
+} Slabs;
+
+typedef struct {
+  float near, far;
+} Interval;
+
+// reach: largest |coordinate| of the space's whole box, by axis. largest: max |d_i|, not 0.
+// A component below largest * 2^-60 is raised to it: no infinity arises, and the pad covers the
+// change, as t * |d_i| differs by less than 2^-60 E.
+static inline Slabs slabs_of(float3 o, float3 d, float3 reach, float largest) {
+  const float3 e = fabs(o) + reach;
+  const float pad = (16.0f * FACET_ULP) * larger(e.x, larger(e.y, e.z));
+  const float least = largest * 8.673617379884035e-19f;
+  const float3 raised = (float3)(fabs(d.x) < least ? copysign(least, d.x) : d.x,
+                                 fabs(d.y) < least ? copysign(least, d.y) : d.y,
+                                 fabs(d.z) < least ? copysign(least, d.z) : d.z);
+  Slabs s;
+  s.inverse = 1.0f / raised;
+  const float3 p = pad * fabs(s.inverse);
+  const float3 c = -(o * s.inverse);
+  s.near_offset = c - p;
+  s.far_offset = c + p;
+  return s;
+}
+
+static inline Interval box_interval(const Slabs s, float3 lo, float3 hi) {
+  const bool px = s.inverse.x > 0.0f, py = s.inverse.y > 0.0f, pz = s.inverse.z > 0.0f;
+  Interval i;
+  i.near = larger(fma(px ? lo.x : hi.x, s.inverse.x, s.near_offset.x), -INFINITY);
+  i.near = larger(fma(py ? lo.y : hi.y, s.inverse.y, s.near_offset.y), i.near);
+  i.near = larger(fma(pz ? lo.z : hi.z, s.inverse.z, s.near_offset.z), i.near);
+  i.far = smaller(fma(px ? hi.x : lo.x, s.inverse.x, s.far_offset.x), INFINITY);
+  i.far = smaller(fma(py ? hi.y : lo.y, s.inverse.y, s.far_offset.y), i.far);
+  i.far = smaller(fma(pz ? hi.z : lo.z, s.inverse.z, s.far_offset.z), i.far);
+  return i;
+}
+
+// The intervals of a node's two children, cut to tmin and best: near[c] <= far[c] is left
+// exactly where child c must be visited.
+static inline void child_intervals(const Slabs s, float4 x, float4 y, float4 z, float tmin, float best,
+                            float near[2], float far[2]) {
+  const float4 nx = s.inverse.x > 0.0f ? x : x.zwxy;
+  const float4 ny = s.inverse.y > 0.0f ? y : y.zwxy;
+  const float4 nz = s.inverse.z > 0.0f ? z : z.zwxy;
+  near[0] = FACET_CULL_MAX(fma(nx.x, s.inverse.x, s.near_offset.x), tmin);
+  near[1] = FACET_CULL_MAX(fma(nx.y, s.inverse.x, s.near_offset.x), tmin);
+  far[0] = FACET_CULL_MIN(fma(nx.z, s.inverse.x, s.far_offset.x), best);
+  far[1] = FACET_CULL_MIN(fma(nx.w, s.inverse.x, s.far_offset.x), best);
+  near[0] = FACET_CULL_MAX(fma(ny.x, s.inverse.y, s.near_offset.y), near[0]);
+  near[1] = FACET_CULL_MAX(fma(ny.y, s.inverse.y, s.near_offset.y), near[1]);
+  far[0] = FACET_CULL_MIN(fma(ny.z, s.inverse.y, s.far_offset.y), far[0]);
+  far[1] = FACET_CULL_MIN(fma(ny.w, s.inverse.y, s.far_offset.y), far[1]);
+  near[0] = FACET_CULL_MAX(fma(nz.x, s.inverse.z, s.near_offset.z), near[0]);
+  near[1] = FACET_CULL_MAX(fma(nz.y, s.inverse.z, s.near_offset.z), near[1]);
+  far[0] = FACET_CULL_MIN(fma(nz.z, s.inverse.z, s.far_offset.z), far[0]);
+  far[1] = FACET_CULL_MIN(fma(nz.w, s.inverse.z, s.far_offset.z), far[1]);
+}
+
+#endif

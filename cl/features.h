@@ -1,0 +1,28 @@
+// What a kernel is compiled with. Everything is on by default; a flag removes a feature that a
+// scene does not use (host/tracer/features.hpp derives them), and with it its code and branches.
+//   FACET_NO_INSTANCES     one mesh, placed by the identity: no top tree, no ray transforms
+//   FACET_NO_TRANSPARENCY  no material with Kt: no refraction, no coloured shadows, no media
+//   FACET_NO_REFLECTION    no material with Kr
+//   FACET_NO_SMOOTH        no mesh with normals
+//   FACET_NO_SPECULAR      no material with Ks
+// and, chosen rather than derived:
+//   FACET_GEOMETRY_IMAGE   positions and normals are read from image2d, not from buffers
+//   FACET_TREE_NONE        brute force: every triangle is tested
+//   FACET_STACK=n          entries of the traversal stack: at least the trees' depth (tree.cpp)
+//   FACET_RAY_STACK=n      entries of the stack of pending rays: at least max_depth
+//   FACET_HARDWARE_MINMAX  see device.h
+#ifndef FACET_FEATURES_H
+#define FACET_FEATURES_H
+
+#ifndef FACET_STACK
+#define FACET_STACK 192
+#endif
+#ifndef FACET_RAY_STACK
+#define FACET_RAY_STACK 64
+#endif
+
+#if !defined(FACET_NO_TRANSPARENCY) || !defined(FACET_NO_REFLECTION)
+#define FACET_SECONDARY
+#endif
+
+#endif

@@ -1,0 +1,182 @@
+// The structures that cross between host and device: the common subset of C and C++.
+//
+// Only float, uint and arrays of them; every size is a multiple of 16 bytes and every group of four
+// words starts at one, so that no compiler has room for an opinion. The sizes are asserted on
+// both sides and each device is asked for its own (tests/tracer/layout_test.cpp).
+#ifndef FACET_LAYOUT_H
+#define FACET_LAYOUT_H
+
+#ifdef __OPENCL_C_VERSION__
+#define FACET_ALIGNED __attribute__((aligned(16)))
+#define FACET_SIZE(type, bytes) typedef char size_of_##type[sizeof(type) == (bytes) ? 1 : -1];
+#else
+#include <cstdint>
+namespace facet::tracer {
+using uint = std::uint32_t;
+#define FACET_ALIGNED alignas(16)
+#define FACET_SIZE(type, bytes) static_assert(sizeof(type) == (bytes) && alignof(type) == 16);
+#endif
+
+// A primitive's bounds, input of every builder.
+struct FACET_ALIGNED Box {
+  float lo[3];
+  uint spare0;
+  float hi[3];
+  uint spare1;
+};
+
+// A node of the builders' binary tree. Nodes 0 to n-1 are the leaves in sorted order; n+i is the
+// node that joins the sorted primitives i and i+1. It covers the sorted range first..last.
+struct FACET_ALIGNED TreeNode {
+  float lo[3];
+  uint left;   // child; a leaf: the primitive
+  float hi[3];
+  uint right;  // child; a leaf: FACET_NONE
+  uint first, last;
+  uint height;  // 0 for a leaf, else 1 + the larger of the children's
+  uint spare;
+};
+
+// A node as traversal reads it: the bounds of both children, one axis to 16 bytes, then what they
+// are. A child is a node's index, or a leaf (FACET_LEAF).
+struct FACET_ALIGNED Node {
+  float x[4];  // lo of child 0, lo of child 1, hi of child 0, hi of child 1
+  float y[4];
+  float z[4];
+  uint child[2];
+  uint spare[2];
+};
+
+// Where a triangle in leaf order comes from.
+struct FACET_ALIGNED TriangleInfo {
+  uint triangle;  // its index in the mesh
+  uint material;
+  uint spare[2];
+};
+
+// A placed mesh. Matrices are three rows of four, row i at [4 * i].
+struct FACET_ALIGNED Instance {
+  float object_from_world[12];
+  float world_from_object[12];
+  float lo[3];  // bounds in the world (host/scene/world_bounds.hpp)
+  uint id;      // its index in the scene
+  float hi[3];
+  uint root;    // of its mesh's tree
+  float reach[3];  // largest |coordinate| of its mesh, by axis
+  uint material;   // FACET_NONE: the mesh's own
+  uint first_triangle, triangle_count;
+  uint spare[2];
+};
+
+// host/scene/material.hpp; sigma and minus_ln_Kt are what coloured shadows add up.
+struct FACET_ALIGNED Material {
+  float Ke[3];
+  float Ns;
+  float Ka[3];
+  float Ni;
+  float Kd[3];
+  uint transparent;  // any Kt > 0
+  float Ks[3];
+  uint specular;  // any Ks > 0
+  float Kr[3];
+  uint spare0;
+  float Kt[3];
+  uint spare1;
+  float minus_ln_Kt[3];
+  uint spare2;
+  float sigma[3];  // -ln(A) / D, per scene unit
+  uint spare3;
+};
+
+#define FACET_POINT_LIGHT 0u
+#define FACET_DIRECTIONAL_LIGHT 1u
+
+struct FACET_ALIGNED Light {
+  float position[3];  // of a point light; for a directional one the unit direction towards it
+  uint kind;
+  float colour[3];
+  uint spare0;
+  float falloff[3];  // constant, linear, quadratic
+  uint spare1;
+};
+
+// All that a picture needs beside its geometry: camera (host/scene/scene.hpp: camera_frame),
+// surroundings, limits.
+struct FACET_ALIGNED View {
+  float origin[3];
+  uint width;
+  float corner[3];
+  uint height;
+  float dx[3];
+  uint max_depth;
+  float dy[3];
+  uint samples;  // a side of the grid in a pixel
+  float background[3];
+  float background_alpha;
+  float ambient[3];
+  uint light_count;
+};
+
+// What traversal needs of the whole scene.
+struct FACET_ALIGNED World {
+  float reach[3];  // largest |coordinate| of the world's bounds, by axis
+  uint root;       // of the tree over instances, or of the only mesh's tree
+  uint instance_count;
+  uint triangle_count;
+  uint spare[2];
+};
+
+// A ray of the file format of `facet trace`; t counts in units of the direction's length.
+struct FACET_ALIGNED Ray {
+  float origin[3];
+  float tmin;
+  float direction[3];
+  float tmax;
+};
+
+// A hit, or a miss: triangle FACET_NONE.
+struct FACET_ALIGNED Hit {
+  float t, u, v;
+  uint triangle;
+};
+
+#define FACET_NONE 0xffffffffu
+
+// A leaf as a child: count triangles (1 to 16) in leaf order from first (below 2^27).
+#define FACET_LEAF_BIT 0x80000000u
+#define FACET_LEAF(first, count) (FACET_LEAF_BIT | (((count) - 1u) << 27) | (first))
+#define FACET_LEAF_FIRST(child) ((child) & 0x07ffffffu)
+#define FACET_LEAF_COUNT(child) ((((child) >> 27) & 15u) + 1u)
+
+#ifdef __OPENCL_C_VERSION__
+typedef struct Box Box;
+typedef struct TreeNode TreeNode;
+typedef struct Node Node;
+typedef struct TriangleInfo TriangleInfo;
+typedef struct Instance Instance;
+typedef struct Material Material;
+typedef struct Light Light;
+typedef struct View View;
+typedef struct World World;
+typedef struct Ray Ray;
+typedef struct Hit Hit;
+#endif
+
+FACET_SIZE(Box, 32)
+FACET_SIZE(TreeNode, 48)
+FACET_SIZE(Node, 64)
+FACET_SIZE(TriangleInfo, 16)
+FACET_SIZE(Instance, 160)
+FACET_SIZE(Material, 128)
+FACET_SIZE(Light, 48)
+FACET_SIZE(View, 96)
+FACET_SIZE(World, 32)
+FACET_SIZE(Ray, 32)
+FACET_SIZE(Hit, 16)
+
+#ifndef __OPENCL_C_VERSION__
+}  // namespace facet::tracer
+#endif
+#undef FACET_SIZE
+#undef FACET_ALIGNED
+#endif

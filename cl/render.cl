@@ -1,0 +1,23 @@
+// A tile of a picture: one pixel a work-item, the mean of its samples.
+#include "states.h"
+
+__kernel void render(__global const World* world, __global const Node* nodes,
+                     __global const Instance* instances, __global const TriangleInfo* infos,
+                     __global const Material* materials, GEOMETRY positions, GEOMETRY normals,
+                     __global const Light* lights, __global const View* view,
+                     __global float4* pixels, uint left, uint top, uint right, uint bottom) {
+  const uint x = left + (uint)get_global_id(0), y = top + (uint)get_global_id(1);
+  if (x >= right || y >= bottom) return;
+  const Scene s = scene_of(world, nodes, instances, infos, materials);
+  const uint n = view->samples;
+  float4 sum = (float4)(0.0f);
+  for (uint j = 0; j < n; ++j)
+    for (uint i = 0; i < n; ++i) {
+      const float sx = (float)x + ((float)i + 0.5f) / (float)n;
+      const float sy = (float)y + ((float)j + 0.5f) / (float)n;
+      const float3 direction = normalize3((vec_global(view->corner) + vec_global(view->dx) * sx) +
+                                          vec_global(view->dy) * sy);
+      sum = sum + radiance(&s, positions, normals, lights, view, vec_global(view->origin), direction);
+    }
+  pixels[(size_t)y * view->width + x] = sum / (float)(n * n);
+}

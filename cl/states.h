@@ -1,0 +1,147 @@
+// A pixel's path as an explicit machine: what recursion would keep on the call stack is a stack of
+// pending rays in private memory.
+//
+//   TRACE --met--> SHADE --child--> TRACE        one child is followed, the other is pushed
+//     |              |---no child---> RESUME
+//     +--missed--> ESCAPE ----------> RESUME --pending--> TRACE
+//                                        +-----none-----> DONE
+//
+// The reflected child is followed and the refracted one pushed, so the contributions are added in
+// the order of the recursion that visits reflection first, and a ray waits at most once for each
+// depth: max_depth entries are enough.
+#ifndef FACET_STATES_H
+#define FACET_STATES_H
+
+#include "light.h"
+
+typedef enum { TRACE, SHADE, ESCAPE, RESUME, DONE } State;
+
+typedef struct {
+  float3 origin, direction, throughput;
+  uint depth;
+  uint medium;  // the material around it, FACET_NONE outside of all
+} PendingRay;
+
+// The direction behind the surface by Snell's law, or false at total internal reflection.
+// eta: index before over index behind; n against d.
+static inline bool refract3(float3 d, float3 n, float eta, float3* out) {
+  const float facing = -dot3(n, d);
+  const float k = 1.0f - (eta * eta) * (1.0f - facing * facing);
+  if (k < 0.0f) return false;
+  *out = normalize3(d * eta + n * (eta * facing - sqrt(k)));
+  return true;
+}
+
+static inline float3 reflect3(float3 d, float3 n) { return normalize3(d - n * (2.0f * dot3(n, d))); }
+
+// Replaces `ray` by the child to follow and pushes the other; RESUME if there is none. A
+// shading normal may send a child to the wrong side: the geometric one then takes its place.
+static inline State branch(const Scene* s, const Surface* f, __global const Material* m,
+                           PendingRay* ray, PendingRay* pending, uint* count, uint max_depth) {
+  if (ray->depth == max_depth) return RESUME;
+#ifdef FACET_SECONDARY
+  const float3 d = ray->direction, step = f->geometric * f->delta;
+  State next = RESUME;
+  float3 kr = (float3)(0.0f);
+#ifndef FACET_NO_REFLECTION
+  kr = vec_global(m->Kr);
+#endif
+#ifndef FACET_NO_TRANSPARENCY
+  PendingRay behind;
+  bool is_behind = false;
+  if (m->transparent) {
+    const float3 kt = vec_global(m->Kt);
+    const float around = ray->medium == FACET_NONE ? 1.0f : s->materials[ray->medium].Ni;
+    const float eta = f->is_front ? around / m->Ni : m->Ni;
+    is_behind = refract3(d, f->shading, eta, &behind.direction);
+    if (is_behind && !(dot3(behind.direction, f->geometric) < 0.0f))
+      is_behind = refract3(d, f->geometric, eta, &behind.direction);
+    if (is_behind) {
+      behind.throughput = ray->throughput * kt;
+      behind.origin = f->p - step;
+      behind.depth = ray->depth + 1u;
+      behind.medium = f->is_front ? f->material : FACET_NONE;
+      is_behind = !is_black(behind.throughput);
+    } else {
+      kr = kr + kt;
+    }
+  }
+#endif
+  kr = ray->throughput * kr;
+  if (!is_black(kr)) {
+    float3 r = reflect3(d, f->shading);
+    if (!(dot3(r, f->geometric) > 0.0f)) r = reflect3(d, f->geometric);
+    ray->origin = f->p + step;
+    ray->direction = r;
+    ray->throughput = kr;
+    ray->depth += 1u;
+    next = TRACE;
+  }
+#ifndef FACET_NO_TRANSPARENCY
+  if (is_behind) {
+    if (next == TRACE)
+      pending[(*count)++] = behind;
+    else
+      *ray = behind;
+    next = TRACE;
+  }
+#endif
+  return next;
+#else
+  return RESUME;
+#endif
+}
+
+// The light that comes to `origin` from unit direction `direction`; alpha is 1 where something
+// is met.
+static inline float4 radiance(const Scene* s, GEOMETRY positions, GEOMETRY normals,
+                              __global const Light* lights, __global const View* view, float3 origin,
+                              float3 direction) {
+  PendingRay pending[FACET_RAY_STACK];
+  uint count = 0u;
+  PendingRay ray = {origin, direction, (float3)(1.0f), 0u, FACET_NONE};
+  float3 sum = (float3)(0.0f);
+  float alpha = 1.0f;
+  Query q;
+  State state = TRACE;
+  while (state != DONE) {
+    switch (state) {
+      case TRACE:
+        q = traverse(s, positions, ray.origin, ray.direction, 0.0f, INFINITY, FACET_CLOSEST);
+        state = q.triangle == FACET_NONE ? ESCAPE : SHADE;
+        break;
+      case ESCAPE:
+        sum = sum + ray.throughput * vec_global(view->background);
+        if (ray.depth == 0u) alpha = view->background_alpha;
+        state = RESUME;
+        break;
+      case SHADE: {
+#ifndef FACET_NO_TRANSPARENCY
+        if (ray.medium != FACET_NONE) {
+          const float3 sigma = vec_global(s->materials[ray.medium].sigma);
+          ray.throughput = ray.throughput * exp(-(sigma * q.t));
+        }
+#endif
+        const Surface f = surface_at(s, positions, normals, &q, ray.direction);
+        __global const Material* m = &s->materials[f.material];
+        sum = sum + ray.throughput * (vec_global(m->Ke) + vec_global(m->Ka) * vec_global(view->ambient));
+        for (uint i = 0; i < view->light_count; ++i)
+          sum = sum + ray.throughput * lit_by(s, positions, &lights[i], &f, m, ray.direction, ray.medium);
+        state = branch(s, &f, m, &ray, pending, &count, view->max_depth);
+        break;
+      }
+      case RESUME:
+      default:
+        if (count == 0u) {
+          state = DONE;
+        } else {
+          ray = pending[--count];
+          state = TRACE;
+        }
+        break;
+    }
+  }
+  return (float4)(sum, alpha);
+}
+
+#endif

@@ -1,0 +1,43 @@
+// Rays from a buffer, hits to a buffer: one ray a work-item.
+#include "traverse.h"
+
+static inline void write_hit(__global Hit* hits, __global uint* instances, size_t i, const Query* q) {
+  hits[i].t = q->t;
+  hits[i].u = q->u;
+  hits[i].v = q->v;
+  hits[i].triangle = q->triangle;
+#ifndef FACET_NO_INSTANCES
+  instances[i] = q->instance;
+#endif
+}
+
+__kernel void trace_closest(__global const World* world, __global const Node* nodes,
+                            __global const Instance* instances, __global const TriangleInfo* infos,
+                            __global const Material* materials, GEOMETRY positions,
+                            __global const Ray* rays, __global Hit* hits, __global uint* hit_instances,
+                            uint count) {
+  const size_t i = get_global_id(0);
+  if (i >= count) return;
+  const Scene s = scene_of(world, nodes, instances, infos, materials);
+  const Query q = traverse(&s, positions, vec_global(rays[i].origin), vec_global(rays[i].direction),
+                           rays[i].tmin, rays[i].tmax, FACET_CLOSEST);
+  write_hit(hits, hit_instances, i, &q);
+}
+
+// Only whether something is met: triangle and instance 0 if so.
+__kernel void trace_any(__global const World* world, __global const Node* nodes,
+                        __global const Instance* instances, __global const TriangleInfo* infos,
+                        __global const Material* materials, GEOMETRY positions,
+                        __global const Ray* rays, __global Hit* hits, __global uint* hit_instances,
+                        uint count) {
+  const size_t i = get_global_id(0);
+  if (i >= count) return;
+  const Scene s = scene_of(world, nodes, instances, infos, materials);
+  Query q = traverse(&s, positions, vec_global(rays[i].origin), vec_global(rays[i].direction),
+                     rays[i].tmin, rays[i].tmax, FACET_ANY);
+  if (q.triangle != FACET_NONE) {
+    q.t = 0.0f;
+    q.instance = 0u;
+  }
+  write_hit(hits, hit_instances, i, &q);
+}

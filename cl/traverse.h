@@ -1,0 +1,237 @@
+// From a ray to its canonical hit: of all accepted triangles the one with the smallest (t,
+// instance, triangle), whatever tree leads to it (box.h says why). Also: any hit, and all
+// crossings between two points, for coloured shadows.
+#ifndef FACET_TRAVERSE_H
+#define FACET_TRAVERSE_H
+
+#include "geometry.h"
+#include "triangle.h"
+
+typedef struct {
+  __global const Node* restrict nodes;
+  __global const Instance* restrict instances;  // in the order of the top tree's leaves
+  __global const TriangleInfo* restrict infos;  // in leaf order
+  __global const Material* restrict materials;
+  float3 reach;
+  uint root, instance_count, triangle_count;
+} Scene;
+
+static inline Scene scene_of(__global const World* w, __global const Node* nodes,
+                      __global const Instance* instances, __global const TriangleInfo* infos,
+                      __global const Material* materials) {
+  Scene s;
+  s.nodes = nodes;
+  s.instances = instances;
+  s.infos = infos;
+  s.materials = materials;
+  s.reach = vec_global(w->reach);
+  s.root = w->root;
+  s.instance_count = w->instance_count;
+  s.triangle_count = w->triangle_count;
+  return s;
+}
+
+// What a traversal looks for; always a literal, so that the compiler drops the other two.
+#define FACET_CLOSEST 0u   // the canonical hit
+#define FACET_ANY 1u       // whether there is one
+#define FACET_CROSSINGS 2u // the optical depth of what is transparent, until something is not
+
+typedef struct {
+  float t, u, v;
+  uint instance, triangle;  // ids in the scene; FACET_NONE: nothing met
+  uint place, slot;         // where they stand in memory: instance and triangle in leaf order
+  // FACET_CROSSINGS: where media end that are still open, and what has been crossed, in units of
+  // 2^-32 (an integer, so that the order of the crossings cannot reach the sum).
+  float t_end;
+  long depth[3];
+} Query;
+
+static inline uint material_of(const Scene* s, uint place, uint slot) {
+#ifndef FACET_NO_INSTANCES
+  const uint replaced = s->instances[place].material;
+  if (replaced != FACET_NONE) return replaced;
+#endif
+  return s->infos[slot].material;
+}
+
+// A term of an optical depth as an integer. It is limited to 2^30, beyond which nothing is seen.
+static inline long fixed_depth(float x) {
+  const float limited = x > 1073741824.0f ? 1073741824.0f : x < -1073741824.0f ? -1073741824.0f : x;
+  return convert_long_rte(limited * 4294967296.0f);
+}
+
+static inline void add_crossing(Query* q, __global const Material* m, float t, bool is_front) {
+  const float inside = is_front ? q->t_end - t : -(q->t_end - t);
+  for (int c = 0; c < 3; ++c)
+    q->depth[c] += fixed_depth(m->minus_ln_Kt[c]) + fixed_depth(inside * m->sigma[c]);
+}
+
+// Tests one triangle; true if the query is answered.
+static inline bool meet_triangle(const Scene* s, GEOMETRY positions, const Space* space, uint place,
+                          Interval outer, uint slot, float tmin, uint mode, Query* q) {
+  float3 p0, p1, p2;
+  read_triangle(positions, slot, &p0, &p1, &p2);
+  TriangleHit hit;
+  if (!hit_triangle(space, p0, p1, p2, outer, tmin, q->t, mode == FACET_CROSSINGS, &hit)) return false;
+  if (mode == FACET_CROSSINGS) {
+    __global const Material* m = &s->materials[material_of(s, place, slot)];
+    if (!m->transparent) {
+      q->triangle = 0u;
+      return true;
+    }
+    if (hit.is_counted) add_crossing(q, m, hit.t, hit.is_front);
+    return false;
+  }
+  if (mode == FACET_ANY) {
+    q->triangle = 0u;
+    return true;
+  }
+  const uint triangle = s->infos[slot].triangle;
+#ifdef FACET_NO_INSTANCES
+  const uint instance = 0u;
+#else
+  const uint instance = s->instances[place].id;
+#endif
+  if (hit.t == q->t && (instance > q->instance || (instance == q->instance && triangle >= q->triangle)))
+    return false;
+  q->t = hit.t;
+  q->u = hit.u;
+  q->v = hit.v;
+  q->instance = instance;
+  q->triangle = triangle;
+  q->place = place;
+  q->slot = slot;
+  return false;
+}
+
+// Takes the world's ray into an instance; false if it cannot meet it.
+static inline bool enter_instance(const Scene* s, uint place, float3 o, float3 d, const Slabs world,
+                           Interval* outer, Space* space) {
+  __global const Instance* i = &s->instances[place];
+  *outer = box_interval(world, vec_global(i->lo), vec_global(i->hi));
+  if (!(outer->near <= outer->far)) return false;
+  return space_of(space, map_point(i->object_from_world, o), map_vector(i->object_from_world, d),
+                  vec_global(i->reach));
+}
+
+#ifdef FACET_TREE_NONE
+
+static inline void search(const Scene* s, GEOMETRY positions, float3 o, float3 d, float tmin, uint mode,
+                   Space* space, Query* q) {
+  Interval outer = {-INFINITY, INFINITY};
+#ifdef FACET_NO_INSTANCES
+  for (uint slot = 0; slot < s->triangle_count; ++slot)
+    if (meet_triangle(s, positions, space, 0u, outer, slot, tmin, mode, q)) return;
+#else
+  const Slabs world = space->slabs;
+  for (uint place = 0; place < s->instance_count; ++place) {
+    if (!enter_instance(s, place, o, d, world, &outer, space)) continue;
+    const uint first = s->instances[place].first_triangle;
+    for (uint k = 0; k < s->instances[place].triangle_count; ++k)
+      if (meet_triangle(s, positions, space, place, outer, first + k, tmin, mode, q)) return;
+  }
+#endif
+}
+
+#else
+
+// Depth first, the nearer child first. A stack entry is pushed at most once for each level of the
+// trees, and FACET_STACK is at least their depth: it cannot overflow.
+static inline void search(const Scene* s, GEOMETRY positions, float3 o, float3 d, float tmin, uint mode,
+                   Space* space, Query* q) {
+  uint stack[FACET_STACK];
+  float stack_near[FACET_STACK];
+  int top = 0;
+  uint node = s->root;
+  Interval outer = {-INFINITY, INFINITY};
+  uint place = 0u;
+#ifndef FACET_NO_INSTANCES
+  bool is_inside = false;  // in an instance's tree; below it on the stack lies FACET_NONE
+  const Slabs world = space->slabs;
+#endif
+  for (;;) {
+    bool is_dead_end = false;
+    while (!(node & FACET_LEAF_BIT)) {
+      __global const float4* n = (__global const float4*)(s->nodes + node);
+      __global const uint2* children = (__global const uint2*)(n + 3);
+      float near[2], far[2];
+      child_intervals(space->slabs, n[0], n[1], n[2], tmin, q->t, near, far);
+      const uint2 child = children[0];
+      const bool first = near[0] <= far[0], second = near[1] <= far[1];
+      if (first && second) {
+        const bool swap = near[1] < near[0];
+        stack[top] = swap ? child.x : child.y;
+        stack_near[top++] = swap ? near[0] : near[1];
+        node = swap ? child.y : child.x;
+      } else if (first || second) {
+        node = first ? child.x : child.y;
+      } else {
+        is_dead_end = true;
+        break;
+      }
+    }
+    if (!is_dead_end) {
+#ifndef FACET_NO_INSTANCES
+      if (!is_inside) {
+        place = FACET_LEAF_FIRST(node);
+        if (enter_instance(s, place, o, d, world, &outer, space)) {
+          is_inside = true;
+          stack[top] = FACET_NONE;
+          stack_near[top++] = -INFINITY;
+          node = s->instances[place].root;
+          continue;
+        }
+        space->slabs = world;
+      } else
+#endif
+      {
+        const uint slot = FACET_LEAF_FIRST(node), count = FACET_LEAF_COUNT(node);
+        for (uint k = 0; k < count; ++k)
+          if (meet_triangle(s, positions, space, place, outer, slot + k, tmin, mode, q)) return;
+      }
+    }
+    do {
+      if (top == 0) return;
+      node = stack[--top];
+#ifndef FACET_NO_INSTANCES
+      if (node == FACET_NONE) {
+        is_inside = false;
+        space->slabs = world;
+      }
+#endif
+    } while (stack_near[top] > q->t || node == FACET_NONE);
+  }
+}
+
+#endif
+
+// A ray that cannot be used (triangle.h: space_of), or whose tmin or tmax is NaN, meets nothing;
+// a negative tmin counts as 0. For a miss t is tmax. `end`: see light.h.
+static inline Query traverse_to(const Scene* s, GEOMETRY positions, float3 o, float3 d, float tmin,
+                                float tmax, float end, uint mode) {
+  Query q;
+  q.t = tmax;
+  q.u = q.v = 0.0f;
+  q.instance = q.triangle = FACET_NONE;
+  q.place = q.slot = 0u;
+  q.depth[0] = q.depth[1] = q.depth[2] = 0;
+  q.t_end = end;
+  Space space;
+  const float start = tmin < 0.0f ? 0.0f : tmin;
+  if (s->instance_count == 0u || !(start <= tmax) || !space_of(&space, o, d, s->reach)) return q;
+  search(s, positions, o, d, start, mode, &space, &q);
+  return q;
+}
+
+static inline Query traverse(const Scene* s, GEOMETRY positions, float3 o, float3 d, float tmin,
+                             float tmax, uint mode) {
+  return traverse_to(s, positions, o, d, tmin, tmax, 0.0f, mode);
+}
+
+// All that is crossed from o on to `distance`; triangle is FACET_NONE unless something opaque is met.
+static inline Query crossings(const Scene* s, GEOMETRY positions, float3 o, float3 d, float distance,
+                              float end) {
+  return traverse_to(s, positions, o, d, 0.0f, distance, end, FACET_CROSSINGS);
+}
+
+#endif

@@ -1,0 +1,109 @@
+// The watertight ray-triangle test of Woop, Benthin and Wald (JCGT 2013), with exact signs.
+//
+// The sign of an edge function decides on which side of an edge the ray passes. Its two
+// products are rounded, and rounding is monotone: where they differ, the sign is that of the exact
+// difference; where they are equal, both rounding errors are had exactly by fma and decide. Two
+// triangles that share an edge compute the same value with opposite sign, so no ray passes between.
+#ifndef FACET_TRIANGLE_H
+#define FACET_TRIANGLE_H
+
+#include "box.h"
+
+// A ray in one space, with all that the tests need of it.
+typedef struct {
+  float3 o;
+  Slabs slabs;
+  float3 shear;      // d_x / d_z, d_y / d_z, 1 / d_z in permuted axes
+  uint axis;         // of the largest |d_i|: the permuted z
+  bool is_negative;  // d_z < 0: permuted x and y have changed roles (see edge_sign)
+} Space;
+
+// False if the direction cannot be used: not finite, 0, or its largest component outside
+// 2^-60 to 2^60; or an origin beyond 2^60. Such a ray meets nothing.
+static inline bool space_of(Space* s, float3 o, float3 d, float3 reach) {
+  const float3 a = fabs(d);
+  s->axis = a.y > a.x ? (a.z > a.y ? 2u : 1u) : (a.z > a.x ? 2u : 0u);
+  const float largest = s->axis == 0u ? a.x : s->axis == 1u ? a.y : a.z;
+  const float3 p = fabs(o);
+  // The negated comparison refuses a NaN in any component.
+  if (!(a.x <= 1.152921504606847e18f && a.y <= 1.152921504606847e18f &&
+        a.z <= 1.152921504606847e18f && largest >= 8.673617379884035e-19f &&
+        p.x <= 1.152921504606847e18f && p.y <= 1.152921504606847e18f &&
+        p.z <= 1.152921504606847e18f))
+    return false;
+  const float dz = s->axis == 0u ? d.x : s->axis == 1u ? d.y : d.z;
+  const float dx = s->axis == 0u ? d.y : s->axis == 1u ? d.z : d.x;
+  const float dy = s->axis == 0u ? d.z : s->axis == 1u ? d.x : d.y;
+  s->o = o;
+  s->is_negative = dz < 0.0f;
+  s->shear = (float3)(dx / dz, dy / dz, 1.0f / dz);
+  s->slabs = slabs_of(o, d, reach, largest);
+  return true;
+}
+
+// A corner relative to the ray, sheared so that the ray is the z axis from the origin on.
+static inline float3 shear_corner(const Space* s, float3 corner) {
+  const float3 a = corner - s->o;
+  const float z = s->axis == 0u ? a.x : s->axis == 1u ? a.y : a.z;
+  const float x = s->axis == 0u ? a.y : s->axis == 1u ? a.z : a.x;
+  const float y = s->axis == 0u ? a.z : s->axis == 1u ? a.x : a.y;
+  return (float3)(x - s->shear.x * z, y - s->shear.y * z, s->shear.z * z);
+}
+
+// p.x * q.y - p.y * q.x, with the exact sign; 0 only if it is 0 in the reals. The second step
+// needs no double: equal products leave exactly the difference of their rounding errors.
+static inline float edge_function(float3 p, float3 q) {
+  const float a = p.x * q.y, b = p.y * q.x;
+  const float e = a - b;
+  return e != 0.0f ? e : fma(p.x, q.y, -a) - fma(p.y, q.x, -b);
+}
+
+// The sign of an edge function with ties broken by moving the ray by (eps, eps^2) in the plane
+// (simulation of simplicity, Edelsbrunner and Muecke 1990): an edge belongs to exactly one of its
+// triangles. For a ray along the negative axis x and y stand the other way round.
+static inline float edge_sign(float e, float3 p, float3 q, bool is_negative) {
+  if (e != 0.0f) return e;
+  const float along_x = p.y - q.y, along_y = q.x - p.x;
+  const float first = is_negative ? along_y : along_x;
+  return first != 0.0f ? first : is_negative ? along_x : along_y;
+}
+
+typedef struct {
+  float t, u, v;
+  bool is_front;    // the ray enters through the side on which the corners turn counter-clockwise
+  bool is_counted;  // this triangle, not a neighbour, owns the edge or corner that is met
+} TriangleHit;
+
+// Whether the ray meets p0 p1 p2 with t in tmin..tmax; the edges belong to the triangle. t is
+// clamped into the interval of the triangle's own box, cut with `outer`, the interval of its
+// instance's box in the world: so no node that holds it can have been left out.
+static inline bool hit_triangle(const Space* s, float3 p0, float3 p1, float3 p2, Interval outer,
+                         float tmin, float tmax, bool count, TriangleHit* hit) {
+  const float3 a = shear_corner(s, p0), b = shear_corner(s, p1), c = shear_corner(s, p2);
+  const float u = edge_function(c, b), v = edge_function(a, c), w = edge_function(b, a);
+  if ((u < 0.0f || v < 0.0f || w < 0.0f) && (u > 0.0f || v > 0.0f || w > 0.0f)) return false;
+  const float det = (u + v) + w;
+  if (det == 0.0f) return false;
+  float t = ((u * a.z + v * b.z) + w * c.z) / det;
+
+  const Interval own =
+      box_interval(s->slabs, smaller3(smaller3(p0, p1), p2), larger3(larger3(p0, p1), p2));
+  const float near = larger(outer.near, own.near), far = smaller(outer.far, own.far);
+  if (!(near <= far)) return false;
+  t = t < near ? near : t;
+  t = t > far ? far : t;
+  if (!(t >= tmin && t <= tmax)) return false;
+  hit->t = t;
+  hit->u = v / det;
+  hit->v = w / det;
+  hit->is_front = (det > 0.0f) != s->is_negative;
+  if (count) {
+    const float su = edge_sign(u, c, b, s->is_negative), sv = edge_sign(v, a, c, s->is_negative),
+                sw = edge_sign(w, b, a, s->is_negative);
+    hit->is_counted = (su > 0.0f && sv > 0.0f && sw > 0.0f) || (su < 0.0f && sv < 0.0f && sw < 0.0f);
+    hit->is_front = (su > 0.0f) != s->is_negative;
+  }
+  return true;
+}
+
+#endif

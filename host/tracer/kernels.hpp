@@ -1,0 +1,23 @@
+// The text of cl/, embedded in the library, and the programs made of it.
+#pragma once
+
+#include <string>
+
+#include "runtime/runtime.hpp"
+#include "tracer/features.hpp"
+#include "tracer/tracer.hpp"
+#include "tracer/tree.hpp"
+#include "tracer/tuning.hpp"
+
+namespace facet::tracer {
+
+/// All files of cl/, by name.
+const runtime::source_tree& kernel_sources();
+
+/// The options that trace.cl and render.cl are compiled with for this geometry.
+/// ray_stack: entries of the stack of pending rays, at least the depth of what is rendered.
+std::string traversal_options(const features& f, tree_kind tree, bool in_images,
+                              std::uint32_t traversal_stack, std::uint32_t ray_stack,
+                              const tuning& t);
+
+}  // namespace facet::tracer

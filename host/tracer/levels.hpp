@@ -1,0 +1,32 @@
+// The builder `levels`: centres -> Morton codes -> radix sort -> merge bottom-up, level by level.
+#pragma once
+
+#include "runtime/runtime.hpp"
+#include "tracer/binary_tree.hpp"
+#include "tracer/morton.hpp"
+#include "tracer/radix_sort.hpp"
+#include "tracer/tuning.hpp"
+
+namespace facet::tracer {
+
+class levels_builder {
+ public:
+  levels_builder(runtime::queue q, const runtime::source_tree& kernels, const tuning& t);
+
+  /// The tree over the first `count` > 0 boxes; finite ones. The same tree on every run and device.
+  /// Its depth is at most 63 + ceil(log2 count) (cl/levels.cl).
+  binary_tree build(runtime::buffer<Box>& boxes, std::uint32_t count);
+
+  double compile_ms() const;
+
+ private:
+  runtime::queue queue_;
+  tuning tuning_;
+  morton morton_;
+  radix_sort<std::uint64_t> sort_codes_;
+  radix_sort<std::uint32_t> sort_levels_;
+  runtime::program program_;
+  runtime::kernel boundary_levels_, level_starts_, make_leaves_, merge_level_, tree_root_;
+};
+
+}  // namespace facet::tracer

@@ -1,0 +1,136 @@
+#include "tracer/pack.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/world_bounds.hpp"
+
+namespace facet::tracer {
+namespace {
+
+template <class T>
+void put(float (&to)[3], const vec3<T>& from) {
+  to[0] = float(from.x), to[1] = float(from.y), to[2] = float(from.z);
+}
+
+texel texel_of(vec3f v) { return {v.x, v.y, v.z, 0}; }
+
+std::array<float, 3> reach_of(const box3f& b) {
+  if (b.empty()) return {};
+  const vec3f r = max(abs(b.lo), abs(b.hi));
+  return {r.x, r.y, r.z};
+}
+
+void put(float (&to)[12], const transform& from) {
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 4; ++j) to[4 * i + j] = float(from.row[i][j]);
+}
+
+Material pack_material(const material& m) {
+  Material p{};
+  put(p.Ke, m.Ke), put(p.Ka, m.Ka), put(p.Kd, m.Kd), put(p.Ks, m.Ks), put(p.Kr, m.Kr),
+      put(p.Kt, m.Kt);
+  p.Ns = m.Ns;
+  p.Ni = m.Ni;
+  p.transparent = m.is_transparent();
+  p.specular = m.Ks.x > 0 || m.Ks.y > 0 || m.Ks.z > 0;
+  if (m.is_transparent()) {
+    put(p.sigma, m.absorption());
+    for (int c = 0; c < 3; ++c)
+      p.minus_ln_Kt[c] = float(-std::log(std::max(double(m.Kt[c]), 1e-30)));
+  }
+  return p;
+}
+
+Light pack_light(const light& l) {
+  Light p{};
+  if (l.type == light::kind::point) {
+    p.kind = FACET_POINT_LIGHT;
+    put(p.position, l.position);
+  } else {
+    p.kind = FACET_DIRECTIONAL_LIGHT;
+    put(p.position, -normalize(l.direction));
+  }
+  put(p.colour, l.colour);
+  p.falloff[0] = l.constant, p.falloff[1] = l.linear, p.falloff[2] = l.quadratic;
+  return p;
+}
+
+void pack_mesh(const mesh& m, bool with_normals, packed_scene& to) {
+  for (std::size_t t = 0; t < m.triangle_count(); ++t) {
+    for (int c = 0; c < 3; ++c) to.corners.push_back(texel_of(m.position(t, c)));
+    if (with_normals)
+      for (int c = 0; c < 3; ++c)
+        to.normals.push_back(m.is_smooth() ? texel_of(m.normal(t, c)) : texel{});
+    to.triangle_materials.push_back(m.material_of(t));
+  }
+}
+
+}  // namespace
+
+packed_scene pack(const scene& s) {
+  packed_scene p;
+  std::vector<bool> is_shown(s.meshes.size(), false);
+  bool is_smooth = false;
+  std::size_t total = 0;
+  for (const instance& i : s.instances) {
+    if (!is_shown[i.mesh]) total += s.meshes[i.mesh].triangle_count();
+    is_shown[i.mesh] = true;
+    is_smooth = is_smooth || s.meshes[i.mesh].is_smooth();
+  }
+  p.corners.reserve(3 * total);
+  if (is_smooth) p.normals.reserve(3 * total);
+  p.triangle_materials.reserve(total);
+
+  for (std::size_t k = 0; k < s.meshes.size(); ++k) {
+    packed_mesh placed;
+    placed.first_triangle = std::uint32_t(p.triangle_materials.size());
+    if (is_shown[k]) {
+      pack_mesh(s.meshes[k], is_smooth, p);
+      placed.reach = reach_of(s.meshes[k].bounds());
+    }
+    placed.triangle_count = std::uint32_t(p.triangle_materials.size()) - placed.first_triangle;
+    p.meshes.push_back(placed);
+  }
+  for (std::size_t k = 0; k < s.instances.size(); ++k) {
+    const instance& i = s.instances[k];
+    const packed_mesh& m = p.meshes[i.mesh];
+    Instance q{};
+    put(q.world_from_object, i.world_from_object);
+    put(q.object_from_world, i.world_from_object.inverse());
+    const box3f box = world_box<float>(i, s.meshes[i.mesh]);
+    put(q.lo, box.lo), put(q.hi, box.hi);
+    std::copy(m.reach.begin(), m.reach.end(), q.reach);
+    q.id = std::uint32_t(k);
+    q.material = i.material;
+    q.first_triangle = m.first_triangle;
+    q.triangle_count = m.triangle_count;
+    p.instances.push_back(q);
+    p.instance_meshes.push_back(i.mesh);
+  }
+  for (const material& m : s.materials) p.materials.push_back(pack_material(m));
+  for (const light& l : s.lights) p.lights.push_back(pack_light(l));
+
+  const std::array<float, 3> reach = reach_of(world_box<float>(s));
+  std::copy(reach.begin(), reach.end(), p.world.reach);
+  p.world.instance_count = std::uint32_t(p.instances.size());
+  p.world.triangle_count = std::uint32_t(total);
+  return p;
+}
+
+View pack_view(const scene& s, std::uint32_t width, std::uint32_t height, std::uint32_t max_depth) {
+  const camera_frame f = frame_of(s.view, width, height);
+  View v{};
+  put(v.origin, f.origin), put(v.corner, f.corner), put(v.dx, f.dx), put(v.dy, f.dy);
+  v.width = width;
+  v.height = height;
+  v.max_depth = max_depth;
+  v.samples = s.samples;
+  put(v.background, s.background);
+  v.background_alpha = s.background_alpha;
+  put(v.ambient, s.ambient);
+  v.light_count = std::uint32_t(s.lights.size());
+  return v;
+}
+
+}  // namespace facet::tracer

@@ -1,0 +1,70 @@
+// Rays in, hits out: device_scene::trace.
+#include <chrono>
+#include <limits>
+
+#include "tracer/launch.hpp"
+#include "tracer/state.hpp"
+
+namespace facet::tracer {
+namespace {
+
+static_assert(sizeof(ray) == sizeof(Ray), "rays are copied as they are");
+
+}  // namespace
+
+std::vector<hit> device_scene::trace(std::span<const ray> rays, bool any, unsigned repeat,
+                                     statistics* stats) {
+  state& s = *state_;
+  if (rays.size() >= std::numeric_limits<std::uint32_t>::max())
+    throw runtime::exception(runtime::errc::invalid, std::to_string(rays.size()) +
+                                                         " rays in one call; at most 2^32 - 2 are "
+                                                         "allowed: trace them in parts");
+  runtime::kernel kernel = s.trace_kernel(any);
+  std::vector<hit> hits(rays.size());
+  if (stats) {
+    *stats = {};
+    stats->rays = rays.size();
+    stats->group_width = s.tuned.group;
+    stats->group_height = 1;
+    s.describe(*stats);
+  }
+  if (rays.empty()) return hits;
+
+  const auto start = std::chrono::steady_clock::now();
+  const bool with_instances = s.compiled.instances;
+  const auto count = std::uint32_t(rays.size());
+  runtime::buffer<Ray> in(reinterpret_cast<const Ray*>(rays.data()), rays.size());
+  runtime::buffer<Hit> out(rays.size());
+  runtime::buffer<std::uint32_t> instances(with_instances ? rays.size() : 1);
+  const auto launch = [&](std::uint32_t size) {
+    return s.queue.submit([&](runtime::handler& h) {
+      std::uint32_t k = s.set_geometry(h);
+      h.set_arg(k++, runtime::accessor{in, h, runtime::read_only});
+      h.set_arg(k++, runtime::accessor{out, h, runtime::write_only});
+      h.set_arg(k++, runtime::accessor{instances, h, runtime::write_only});
+      h.set_arg(k++, size);
+      h.parallel_for(padded(size, s.tuned.group), kernel);
+    });
+  };
+  // The first launch of a work-group size may compile (PoCL does): one group pays for it, and for
+  // moving the rays, before anything is timed.
+  launch(std::min(count, s.tuned.group)).wait_and_throw();
+  for (unsigned k = 0; k < std::max(1u, repeat); ++k) {
+    const runtime::event done = launch(count);
+    done.wait_and_throw();
+    if (stats) stats->kernel_ms.push_back(done.milliseconds());
+  }
+  const runtime::host_accessor found{out, runtime::read_only};
+  const runtime::host_accessor where{instances, runtime::read_only};
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const Hit& h = found[i];
+    const std::uint32_t instance = h.triangle == miss ? miss : with_instances ? where[i] : 0;
+    hits[i] = {h.t, h.u, h.v, instance, h.triangle};
+  }
+  if (stats)
+    stats->wall_ms =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  return hits;
+}
+
+}  // namespace facet::tracer

@@ -1,0 +1,146 @@
+// Pictures, tile by tile: device_scene::render.
+#include <algorithm>
+#include <chrono>
+
+#include "scene/error.hpp"
+#include "tracer/state.hpp"
+
+namespace facet::tracer {
+namespace {
+
+/// What a launch should take: no watchdog fires, progress moves, Ctrl-C is answered (design §10).
+constexpr double launch_ms = 50;
+
+struct tile {
+  std::uint32_t left, top, right, bottom;
+  std::uint64_t pixels() const { return std::uint64_t(right - left) * (bottom - top); }
+};
+
+/// Hands out the picture's tiles from the top left, row by row. With no size given a tile is as
+/// many whole rows as the last one's speed says fit into launch_ms, and at most 4 times more than
+/// before; the first is a 32nd of the picture.
+class tiler {
+ public:
+  tiler(std::uint32_t width, std::uint32_t height, const options& o, std::uint32_t group_height)
+      : width_(width),
+        height_(height),
+        fixed_width_(o.tile_width),
+        fixed_height_(o.tile_height),
+        step_(group_height),
+        rows_(round_up(std::max(1u, height / 32))) {}
+
+  bool next(tile& t) {
+    if (top_ >= height_) return false;
+    const std::uint32_t w = fixed_width_ ? fixed_width_ : width_;
+    const std::uint32_t h = fixed_height_ ? fixed_height_ : rows_;
+    t = {left_, top_, std::min(width_, left_ + std::min(w, width_)),
+         std::min(height_, top_ + std::min(h, height_))};
+    if (t.right == width_)
+      left_ = 0, top_ = t.bottom;
+    else
+      left_ = t.right;
+    return true;
+  }
+
+  void took(const tile& t, double ms) {
+    const double fits = (t.bottom - t.top) * launch_ms / std::max(ms, 1e-3);
+    rows_ = round_up(std::uint32_t(std::clamp(fits, 1.0, 4.0 * rows_)));
+  }
+
+ private:
+  std::uint32_t round_up(std::uint32_t rows) const {
+    return std::min(height_ + step_, (rows + step_ - 1) / step_ * step_);
+  }
+
+  std::uint32_t width_, height_, fixed_width_, fixed_height_, step_, rows_;
+  std::uint32_t left_ = 0, top_ = 0;
+};
+
+/// The tile padded to whole work-groups; the kernel guards.
+runtime::nd_range<2> range_of(const tile& t, std::uint32_t w, std::uint32_t h) {
+  const std::size_t columns = (t.right - t.left + w - 1) / w, rows = (t.bottom - t.top + h - 1) / h;
+  return {runtime::range<2>(columns * w, rows * h), runtime::range<2>(w, h)};
+}
+
+void check_size(std::uint32_t width, std::uint32_t height, std::uint32_t max_depth) {
+  if (width == 0 || height == 0 || width > limits::image_side || height > limits::image_side)
+    throw scene_error("", "",
+                      "a picture of " + std::to_string(width) + "x" + std::to_string(height) +
+                          " was asked for; each side may be 1 to " +
+                          std::to_string(limits::image_side) + " pixels");
+  if (max_depth > limits::max_depth)
+    throw scene_error("", "",
+                      "a depth of " + std::to_string(max_depth) + " was asked for; at most " +
+                          std::to_string(limits::max_depth) + " is allowed");
+}
+
+}  // namespace
+
+picture device_scene::render(std::uint32_t width, std::uint32_t height, std::uint32_t max_depth,
+                             statistics* stats, const progress& on_progress,
+                             const std::atomic<bool>* cancel) {
+  check_size(width, height, max_depth);
+  state& s = *state_;
+  const View view = pack_view(s.model, width, height, max_depth);
+  const std::uint32_t w = s.chosen.group_width ? s.chosen.group_width : s.tuned.tile_width;
+  const std::uint32_t h = s.chosen.group_height ? s.chosen.group_height : s.tuned.tile_height;
+  runtime::kernel kernel = s.render_kernel(max_depth);
+
+  const auto start = std::chrono::steady_clock::now();
+  const std::uint64_t total = std::uint64_t(width) * height;
+  runtime::buffer<View> view_buffer(&view, 1);
+  runtime::buffer<texel> pixels(total);
+  const auto launch = [&](const tile& t) {
+    return s.queue.submit([&](runtime::handler& g) {
+      std::uint32_t k = s.set_geometry(g);
+      if (s.in_images)
+        g.set_arg(k++, runtime::image_accessor{*s.geometry.normal_image, g, runtime::read_only});
+      else
+        g.set_arg(k++, runtime::accessor{s.geometry.normals, g, runtime::read_only});
+      g.set_arg(k++, runtime::accessor{s.lights, g, runtime::read_only});
+      g.set_arg(k++, runtime::accessor{view_buffer, g, runtime::read_only});
+      g.set_arg(k++, runtime::accessor{pixels, g, runtime::read_write});
+      g.set_arg(k++, t.left);
+      g.set_arg(k++, t.top);
+      g.set_arg(k++, t.right);
+      g.set_arg(k++, t.bottom);
+      g.parallel_for(range_of(t, w, h), kernel);
+    });
+  };
+
+  std::uint64_t done = 0;
+  double kernel_ms = 0;
+  std::uint32_t tiles = 0;
+  tiler tiles_left(width, height, s.chosen, h);
+  for (tile t{}; tiles_left.next(t);) {
+    if (cancel && cancel->load()) throw cancelled(done, total);
+    const runtime::event finished = launch(t);
+    finished.wait_and_throw();
+    const double ms = finished.milliseconds();
+    tiles_left.took(t, ms);
+    kernel_ms += ms;
+    done += t.pixels();
+    ++tiles;
+    if (on_progress) on_progress(done, total);
+  }
+  picture result(width, height);
+  {
+    const runtime::host_accessor read{pixels, runtime::read_only};
+    for (std::size_t i = 0; i < total; ++i)
+      std::copy(read[i].begin(), read[i].end(), result.rgba.begin() + std::ptrdiff_t(4 * i));
+  }
+  if (stats) {
+    *stats = {};
+    s.describe(*stats);
+    stats->kernel_ms = {kernel_ms};
+    stats->rays = total * s.model.samples * s.model.samples;
+    stats->group_width = w;
+    stats->group_height = h;
+    stats->tiles = tiles;
+    stats->wall_ms =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  }
+  return result;
+}
+
+}  // namespace facet::tracer

@@ -1,0 +1,36 @@
+// What a device_scene holds between calls.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "tracer/kernels.hpp"
+#include "tracer/tracer.hpp"
+#include "tracer/tree.hpp"
+
+namespace facet::tracer {
+
+struct device_scene::state {
+  runtime::queue queue;
+  options chosen;
+  tuning tuned;
+  features compiled;
+  bool in_images = false;
+  runtime::source_tree kernels;
+  scene model;  ///< without its meshes: camera, lights and limits of later pictures
+  device_geometry geometry;
+  runtime::buffer<Light> lights;
+  std::optional<runtime::program> trace_program, render_program;
+  std::uint32_t render_stack = 0;  ///< entries of pending rays that render_program was built for
+
+  /// Compiles on first use, and again where a deeper picture needs a larger stack of pending rays.
+  runtime::kernel trace_kernel(bool any);
+  runtime::kernel render_kernel(std::uint32_t max_depth);
+
+  /// Sets a kernel's first arguments, those of every traversal (cl/trace.cl, cl/render.cl).
+  std::uint32_t set_geometry(runtime::handler& h);
+  /// What is known before anything runs: device, tree, features, times of preparation.
+  void describe(statistics& s) const;
+};
+
+}  // namespace facet::tracer

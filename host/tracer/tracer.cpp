@@ -1,0 +1,99 @@
+#include "tracer/tracer.hpp"
+
+#include <utility>
+
+#include "tracer/pack.hpp"
+#include "tracer/state.hpp"
+
+namespace facet::tracer {
+namespace {
+
+/// A scene's camera, surroundings and lights: what later pictures need of it.
+scene without_meshes(const scene& s) {
+  scene shell;
+  shell.name = s.name;
+  shell.view = s.view;
+  shell.samples = s.samples;
+  shell.ambient = s.ambient;
+  shell.background = s.background;
+  shell.background_alpha = s.background_alpha;
+  shell.lights = s.lights;
+  return shell;
+}
+
+runtime::buffer<Light> light_buffer(const std::vector<Light>& lights) {
+  return lights.empty() ? runtime::buffer<Light>(1)
+                        : runtime::buffer<Light>(lights.data(), lights.size());
+}
+
+}  // namespace
+
+device_scene::device_scene(runtime::queue queue, const scene& s, options o) {
+  const tuning tuned = tuning_for(queue.get_device());
+  const features used = o.all_features ? features::all() : features::of(s);
+  const bool in_images = o.geometry == geometry_kind::image ||
+                         (o.geometry == geometry_kind::automatic && tuned.image_geometry);
+  runtime::source_tree kernels =
+      o.kernel_folder.empty() ? kernel_sources() : runtime::read_folder(o.kernel_folder);
+  packed_scene packed = pack(s);
+  runtime::buffer<Light> lights = light_buffer(packed.lights);
+  device_geometry geometry =
+      build_geometry(queue, kernels, std::move(packed), used, o.tree, in_images, tuned);
+  state_ = std::make_unique<state>(state{queue, std::move(o), tuned, used, in_images,
+                                         std::move(kernels), without_meshes(s), std::move(geometry),
+                                         std::move(lights), std::nullopt, std::nullopt, 0});
+}
+
+device_scene::~device_scene() = default;
+device_scene::device_scene(device_scene&&) noexcept = default;
+device_scene& device_scene::operator=(device_scene&&) noexcept = default;
+
+runtime::kernel device_scene::state::trace_kernel(bool any) {
+  if (!trace_program)
+    trace_program.emplace(
+        queue.get_context(), kernels, "trace.cl",
+        traversal_options(compiled, chosen.tree, in_images, geometry.stack, 0, tuned));
+  return trace_program->get_kernel(any ? "trace_any" : "trace_closest");
+}
+
+runtime::kernel device_scene::state::render_kernel(std::uint32_t max_depth) {
+  if (!render_program || render_stack < max_depth) {
+    render_program.emplace(
+        queue.get_context(), kernels, "render.cl",
+        traversal_options(compiled, chosen.tree, in_images, geometry.stack, max_depth, tuned));
+    render_stack = max_depth;
+  }
+  return render_program->get_kernel("render");
+}
+
+std::uint32_t device_scene::state::set_geometry(runtime::handler& h) {
+  std::uint32_t k = 0;
+  h.set_arg(k++, runtime::accessor{geometry.world, h, runtime::read_only});
+  h.set_arg(k++, runtime::accessor{geometry.nodes, h, runtime::read_only});
+  h.set_arg(k++, runtime::accessor{geometry.instances, h, runtime::read_only});
+  h.set_arg(k++, runtime::accessor{geometry.infos, h, runtime::read_only});
+  h.set_arg(k++, runtime::accessor{geometry.materials, h, runtime::read_only});
+  if (in_images)
+    h.set_arg(k++, runtime::image_accessor{*geometry.corner_image, h, runtime::read_only});
+  else
+    h.set_arg(k++, runtime::accessor{geometry.corners, h, runtime::read_only});
+  return k;
+}
+
+void device_scene::state::describe(statistics& s) const {
+  const runtime::device d = queue.get_device();
+  s.device = d.name();
+  s.platform = d.platform_name();
+  s.driver = d.driver_version();
+  s.compile_ms = geometry.compile_ms + (trace_program ? trace_program->build_ms() : 0) +
+                 (render_program ? render_program->build_ms() : 0);
+  s.upload_ms = geometry.upload_ms;
+  s.build_ms = geometry.build_ms;
+  s.geometry = in_images ? "image" : "buffer";
+  s.features = compiled.names();
+  s.tree_depth = geometry.depth;
+  s.tree_nodes = geometry.nodes_used;
+  s.device_bytes = geometry.bytes;
+}
+
+}  // namespace facet::tracer

@@ -1,0 +1,39 @@
+// A whole scene's geometry on a device, ready to be traced: one tree a mesh, one over instances.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "runtime/runtime.hpp"
+#include "tracer/features.hpp"
+#include "tracer/pack.hpp"
+#include "tracer/tracer.hpp"
+#include "tracer/tuning.hpp"
+
+namespace facet::tracer {
+
+/// What cl/traverse.h reads, in the order of a kernel's first arguments.
+struct device_geometry {
+  runtime::buffer<World> world;
+  runtime::buffer<Node> nodes;
+  runtime::buffer<Instance> instances;  ///< in the order of the top tree's leaves
+  runtime::buffer<TriangleInfo> infos;  ///< in leaf order
+  runtime::buffer<Material> materials;
+  runtime::buffer<texel> corners, normals;  ///< in leaf order; empty where images hold them
+  std::optional<runtime::image2d> corner_image, normal_image;
+
+  std::uint32_t stack = 1;       ///< entries that traversal may need (cl/features.h: FACET_STACK)
+  std::uint32_t depth = 0;       ///< deepest way from the top's root to a leaf
+  std::uint64_t nodes_used = 0;  ///< nodes of all binary trees, 2n - 1 each
+  std::uint64_t bytes = 0;       ///< of device memory that stays allocated
+  double compile_ms = 0, upload_ms = 0, build_ms = 0;
+};
+
+/// Uploads the packed scene, builds its trees (unless tree_kind::none) and puts all into leaf
+/// order. With f.instances off the scene's one mesh is the root. Throws runtime::exception
+/// (memory_allocation) before anything is allocated if the device cannot hold it.
+device_geometry build_geometry(runtime::queue& q, const runtime::source_tree& kernels,
+                               packed_scene packed, const features& f, tree_kind tree,
+                               bool in_images, const tuning& t);
+
+}  // namespace facet::tracer

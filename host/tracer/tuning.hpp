@@ -1,0 +1,27 @@
+// Values that only speed depends on, in one place.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "runtime/device.hpp"
+
+namespace facet::tracer {
+
+struct tuning {
+  std::uint32_t group = 64;                       ///< work-items a group of one-dimensional kernels
+  std::uint32_t tile_width = 8, tile_height = 8;  ///< default work-group of the render kernel
+  std::uint32_t leaf_size = 4;                    ///< triangles a leaf holds at most, 1 to 16
+  std::uint32_t sort_tiles = 64;                  ///< tiles a radix pass is cut into, at most
+  std::uint32_t sort_tile_least = 4096;           ///< keys a tile holds at least
+  bool image_geometry = false;                    ///< what --geometry auto means
+  bool hardware_minmax = false;                   ///< cl/device.h
+
+  /// Options for the compiler, each with a space before it.
+  std::string flags() const;
+};
+
+/// Measured defaults by kind of device (bench/, README).
+tuning tuning_for(const runtime::device& d);
+
+}  // namespace facet::tracer
