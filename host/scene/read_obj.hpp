@@ -1,0 +1,19 @@
+// Wavefront OBJ: triangles, polygons, normals and material names.
+#pragma once
+
+#include <filesystem>
+
+#include "scene/mesh_file.hpp"
+
+namespace facet {
+
+/// Reads v, vn, f, usemtl and mtllib; texture coordinates, groups, smoothing groups, lines and
+/// points are passed over. Triangle i is the i-th after each polygon became a fan around its first
+/// corner. Material files must lie in the folder of the OBJ file or below it; one that is missing,
+/// and a name that none of them defines, give a note and a default material named "default".
+///
+/// Throws scene_error with the line for an index that names nothing, and without one if the file
+/// cannot be read or no triangle is left.
+mesh_file read_obj(const std::filesystem::path& path);
+
+}  // namespace facet
