@@ -146,16 +146,16 @@ void assign(const material_choice& choice, mesh& m) {
 
 }  // namespace
 
-std::uint32_t default_material(scene& s, name_table& materials) {
+std::uint32_t default_material(scene& s, const name_table& materials) {
   if (const std::uint32_t* index = materials.find("default")) return *index;
-  const auto index = std::uint32_t(s.materials.size());
-  s.materials.push_back({});
-  s.materials.back().name = "default";
-  materials.add("default", index);
+  const auto made_up = std::find_if(s.materials.begin(), s.materials.end(),
+                                    [](const material& m) { return m.name == "default"; });
+  const auto index = std::uint32_t(made_up - s.materials.begin());
+  if (made_up == s.materials.end()) s.materials.emplace_back().name = "default";
   return index;
 }
 
-void read_meshes(const json_node& node, const fs::path& folder, name_table& materials,
+void read_meshes(const json_node& node, const fs::path& folder, const name_table& materials,
                  name_table& meshes, scene& s) {
   if (!node.is_object()) node.expected("an object of meshes by their names");
   for (const std::string& name : node.keys()) {
