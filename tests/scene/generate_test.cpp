@@ -63,9 +63,9 @@ TEST_CASE("every kind makes a valid mesh without degenerate triangles from its f
 }
 
 TEST_CASE("closed kinds use each edge once in each direction, share vertices and face outwards") {
-  for (const auto& [kind, parameters] : closed) {
-    CAPTURE(kind);
-    const mesh m = generate(kind, parameters);
+  for (const auto& entry : closed) {
+    CAPTURE(entry.first);
+    const mesh m = generate(entry.first, entry.second);
     CAPTURE(m.triangle_count());
     CHECK(broken_promise(m) == "");
     CHECK(is_watertight(m));
