@@ -1,0 +1,18 @@
+// What stands in where Embree was not found at build time.
+#include <stdexcept>
+
+#include "bench/embree_peer.hpp"
+
+namespace facet::bench {
+
+struct embree_peer::state {};
+
+std::string embree_version() { return {}; }
+embree_peer::embree_peer(const mesh&, unsigned) {
+  throw std::runtime_error("built without Embree (Debian: libembree-dev)");
+}
+embree_peer::~embree_peer() = default;
+double embree_peer::build_seconds() const { return 0; }
+void embree_peer::closest(const std::vector<ray>&, std::vector<hit>&) const {}
+
+}  // namespace facet::bench

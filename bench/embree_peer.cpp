@@ -1,0 +1,75 @@
+#include "bench/embree_peer.hpp"
+
+#include <embree3/rtcore.h>
+
+#include <cstring>
+#include <stdexcept>
+
+#include "bench/measure.hpp"
+
+namespace facet::bench {
+
+struct embree_peer::state {
+  RTCDevice device = nullptr;
+  RTCScene scene = nullptr;
+  double build = 0;
+
+  ~state() {
+    if (scene) rtcReleaseScene(scene);
+    if (device) rtcReleaseDevice(device);
+  }
+  void check() const {
+    if (rtcGetDeviceError(device) != RTC_ERROR_NONE)
+      throw std::runtime_error("Embree refused a call");
+  }
+};
+
+std::string embree_version() { return std::string("Embree ") + RTC_VERSION_STRING; }
+
+embree_peer::embree_peer(const mesh& m, unsigned threads) : state_(std::make_unique<state>()) {
+  state_->device = rtcNewDevice(("threads=" + std::to_string(threads)).c_str());
+  state_->check();
+  RTCGeometry g = rtcNewGeometry(state_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  const auto copy = [&](RTCBufferType type, RTCFormat format, const auto& from,
+                        std::size_t stride) {
+    void* to =
+        rtcSetNewGeometryBuffer(g, type, 0, format, stride, from.size() * sizeof(from[0]) / stride);
+    state_->check();
+    std::memcpy(to, from.data(), from.size() * sizeof(from[0]));
+  };
+  copy(RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, m.positions, 3 * sizeof(float));
+  copy(RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, m.indices, 3 * sizeof(std::uint32_t));
+  state_->build = seconds([&] {
+    rtcSetGeometryBuildQuality(g, RTC_BUILD_QUALITY_MEDIUM);
+    rtcCommitGeometry(g);
+    state_->scene = rtcNewScene(state_->device);
+    rtcSetSceneBuildQuality(state_->scene, RTC_BUILD_QUALITY_MEDIUM);
+    rtcAttachGeometry(state_->scene, g);
+    rtcCommitScene(state_->scene);
+  });
+  rtcReleaseGeometry(g);
+  state_->check();
+}
+
+embree_peer::~embree_peer() = default;
+
+double embree_peer::build_seconds() const { return state_->build; }
+
+void embree_peer::closest(const std::vector<ray>& rays, std::vector<hit>& hits) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const ray& r = rays[i];
+    RTCRayHit x{};
+    x.ray.org_x = r.origin.x, x.ray.org_y = r.origin.y, x.ray.org_z = r.origin.z;
+    x.ray.dir_x = r.direction.x, x.ray.dir_y = r.direction.y, x.ray.dir_z = r.direction.z;
+    x.ray.tnear = r.tmin, x.ray.tfar = r.tmax;
+    x.ray.mask = ~0u;
+    x.hit.geomID = x.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(state_->scene, &context, &x);
+    const bool found = x.hit.geomID != RTC_INVALID_GEOMETRY_ID;
+    hits[i] = found ? hit{x.ray.tfar, x.hit.u, x.hit.v, 0, x.hit.primID} : hit{r.tmax};
+  }
+}
+
+}  // namespace facet::bench

@@ -1,0 +1,19 @@
+// facet_bench: benchmarks side by side with peers, one row a subcommand.
+#include <exception>
+#include <iostream>
+
+#include "bench/rows.hpp"
+
+int main(int argc, char** argv) {
+  CLI::App app("Facet's benchmarks; peers take part where they were found at build time.");
+  app.require_subcommand(1);
+  facet::bench::add_reference_row(app);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e);
+  } catch (const std::exception& e) {
+    std::cerr << "facet_bench: " << e.what() << '\n';
+    return 1;
+  }
+}

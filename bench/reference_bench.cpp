@@ -1,0 +1,141 @@
+// Row `reference`: closest hits of the float reference against Embree, one thread each, the same
+// rays, alternated in one run.
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "bench/embree_peer.hpp"
+#include "bench/measure.hpp"
+#include "bench/rows.hpp"
+#include "reference/tracer.hpp"
+#include "scene/scene.hpp"
+
+namespace facet::bench {
+namespace {
+
+struct settings {
+  std::vector<std::string> models;
+  int terrain = 1000, soup = 1000000, repeat = 5;
+  std::string json;
+};
+
+scene scene_of(mesh m) {
+  scene s;
+  s.materials.emplace_back();
+  s.meshes.push_back(std::move(m));
+  s.instances.emplace_back();
+  return s;
+}
+
+nlohmann::json figures(const std::vector<double>& times, std::size_t rays) {
+  const spread s = spread_of(times);
+  const auto rate = [&](double t) { return double(rays) / t * 1e-6; };
+  return {{"mrays_per_s", rate(s.median)},
+          {"mrays_per_s_least", rate(s.most)},
+          {"mrays_per_s_most", rate(s.least)},
+          {"seconds", times}};
+}
+
+/// Times both on the same rays; prints a line and gives it as JSON.
+nlohmann::json compare(const std::string& name, const char* kind, const std::vector<ray>& rays,
+                       const reference::tracer<float>& ours, const embree_peer* peer, int repeat) {
+  std::vector<hit> hits(rays.size()), peer_hits(rays.size());
+  std::vector<double> times, peer_times, ratios;
+  for (int i = 0; i < repeat; ++i) {
+    times.push_back(seconds([&] {
+      for (std::size_t k = 0; k < rays.size(); ++k) hits[k] = ours.closest(rays[k]);
+    }));
+    if (!peer) continue;
+    peer_times.push_back(seconds([&] { peer->closest(rays, peer_hits); }));
+    ratios.push_back(peer_times.back() / times.back());
+  }
+  nlohmann::json row{{"mesh", name}, {"rays", kind}, {"count", rays.size()}};
+  row["reference"] = figures(times, rays.size());
+  std::printf("%-24s %-8s %9zu  %6.2f (%.2f-%.2f)", name.c_str(), kind, rays.size(),
+              double(row["reference"]["mrays_per_s"]),
+              double(row["reference"]["mrays_per_s_least"]),
+              double(row["reference"]["mrays_per_s_most"]));
+  if (peer) {
+    std::size_t differ = 0;
+    for (std::size_t k = 0; k < rays.size(); ++k) differ += bool(hits[k]) != bool(peer_hits[k]);
+    const spread ratio = spread_of(ratios);
+    row["embree"] = figures(peer_times, rays.size());
+    row["ratio"] = {{"median", ratio.median}, {"least", ratio.least}, {"most", ratio.most}};
+    row["hit_or_miss_differs"] = differ;
+    std::printf("  %6.2f  %.2f (%.2f-%.2f)  %zu", double(row["embree"]["mrays_per_s"]),
+                ratio.median, ratio.least, ratio.most, differ);
+  }
+  std::printf("\n");
+  std::fflush(stdout);
+  return row;
+}
+
+void run(const settings& o) {
+  std::vector<std::string> names = o.models;
+  if (o.terrain > 0) names.push_back("terrain:" + std::to_string(o.terrain));
+  if (o.soup > 0) names.push_back("soup:" + std::to_string(o.soup));
+  if (o.models.empty()) std::printf("No --model given: OBJ meshes are left out.\n");
+
+  const std::string peer_name = embree_version();
+  if (peer_name.empty())
+    std::printf("Built without Embree (libembree-dev): its figures are left out.\n");
+  nlohmann::json report{{"row", "reference"},
+                        {"cpu", cpu_name()},
+                        {"compiler", __VERSION__},
+                        {"threads", 1},
+                        {"repeat", o.repeat}};
+  report["peer"] = peer_name.empty() ? nlohmann::json() : nlohmann::json(peer_name);
+  report["results"] = nlohmann::json::array();
+  report["builds"] = nlohmann::json::array();
+
+  std::printf("Closest hits on one thread, Mrays/s: median (least-most)%s\n",
+              peer_name.empty() ? "" : "; Embree; ratio; hit in one and miss in the other");
+  const std::vector<ray> primary = primary_rays();
+  for (const std::string& path : names) {
+    const std::string name = path.substr(path.find_last_of('/') + 1);
+    const scene s = scene_of(load_workload(path));
+    std::unique_ptr<reference::tracer<float>> ours;
+    const double build = seconds([&] { ours = std::make_unique<reference::tracer<float>>(s); });
+    std::unique_ptr<embree_peer> peer;
+    if (!peer_name.empty()) peer = std::make_unique<embree_peer>(s.meshes[0], 1);
+    report["builds"].push_back(
+        {{"mesh", name},
+         {"triangles", s.triangle_count()},
+         {"reference_s", build},
+         {"embree_s", peer ? nlohmann::json(peer->build_seconds()) : nlohmann::json()}});
+
+    std::vector<hit> hits;
+    for (const ray& r : primary) hits.push_back(ours->closest(r));
+    const std::vector<ray> bounce = bounce_rays(s.meshes[0], primary, hits);
+    auto& results = report["results"];
+    results.push_back(compare(name, "primary", primary, *ours, peer.get(), o.repeat));
+    results.push_back(compare(name, "bounce", bounce, *ours, peer.get(), o.repeat));
+  }
+  if (!o.json.empty()) write_text(o.json, report.dump(2));
+}
+
+}  // namespace
+
+void add_reference_row(CLI::App& app) {
+  auto o = std::make_shared<settings>();
+  CLI::App* row = app.add_subcommand("reference", "Serial reference against Embree, closest hits");
+  row->add_option("--model", o->models, "OBJ files to trace, too; none: only generated meshes")
+      ->check(CLI::ExistingFile);
+  row->add_option("--terrain", o->terrain, "terrain of 2*N*N triangles; 0 leaves it out")
+      ->check(CLI::Range(0, 8000))
+      ->capture_default_str();
+  row->add_option("--soup", o->soup, "N random triangles; 0 leaves it out")
+      ->check(CLI::Range(0, 100000000))
+      ->capture_default_str();
+  row->add_option("--repeat", o->repeat, "runs of each figure, alternated with the peer's")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  row->add_option("--threads", "the reference is serial: only 1")
+      ->check(CLI::Range(1, 1))
+      ->expected(1);
+  row->add_option("--json", o->json, "write the figures to this file");
+  row->callback([o] { run(*o); });
+}
+
+}  // namespace facet::bench

@@ -1,0 +1,11 @@
+// The rows of facet_bench: each adds its subcommand, which prints a table and may write JSON.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace facet::bench {
+
+/// The serial reference against Embree, one thread each, closest hits.
+void add_reference_row(CLI::App& app);
+
+}  // namespace facet::bench

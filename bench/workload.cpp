@@ -1,0 +1,187 @@
+#include "bench/workload.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace facet::bench {
+namespace {
+
+std::uint32_t hash(std::uint32_t x) {
+  x = (x ^ (x >> 16)) * 0x7feb352du;
+  x = (x ^ (x >> 15)) * 0x846ca68bu;
+  return x ^ (x >> 16);
+}
+
+/// A chain of hashes as numbers in [0, 1).
+class random_numbers {
+ public:
+  explicit random_numbers(std::uint32_t seed) : state_(seed) {}
+  float next() {
+    state_ = hash(state_ + 0x9e3779b9u);
+    return float(state_ >> 8) * 0x1p-24f;
+  }
+
+ private:
+  std::uint32_t state_;
+};
+
+/// By the reciprocal: the rays were defined so.
+vec3f unit(vec3f a) { return a * (1.0f / std::sqrt(dot(a, a))); }
+
+mesh terrain(int n) {
+  mesh m;
+  const auto height = [](float x, float z) {
+    return 0.08f * std::sin(9 * x) * std::cos(7 * z) +
+           0.02f * std::sin(61 * x + 3 * z) * std::sin(53 * z) +
+           0.004f * std::sin(311 * x) * std::sin(293 * z + 11 * x);
+  };
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n; ++i) {
+      const float x = float(i) / float(n) - 0.5f, z = float(j) / float(n) - 0.5f;
+      const std::uint32_t block =
+          hash(std::uint32_t(i / 16) * 7919u + std::uint32_t(j / 16) * 104729u);
+      float y = height(x, z);
+      if (block % 8 == 0) y += 0.03f * float((block >> 8) & 255) / 255.0f;
+      m.positions.push_back({x, y, z});
+    }
+  const auto row = std::uint32_t(n + 1);
+  for (std::uint32_t j = 0; j + 1 < row; ++j)
+    for (std::uint32_t i = 0; i + 1 < row; ++i) {
+      const std::uint32_t a = j * row + i, b = a + 1, c = a + row, d = c + 1;
+      m.indices.insert(m.indices.end(), {a, c, b, b, c, d});
+    }
+  return m;
+}
+
+mesh soup(int n) {
+  mesh m;
+  random_numbers r(12345);
+  const float size = 0.6f / std::cbrt(float(n));
+  const auto offset = [&] {
+    const float x = r.next() - 0.5f, y = r.next() - 0.5f, z = r.next() - 0.5f;
+    return vec3f(x, y, z);
+  };
+  for (int i = 0; i < n; ++i) {
+    const vec3f centre = offset();
+    for (int k = 0; k < 3; ++k) {
+      m.indices.push_back(std::uint32_t(m.positions.size()));
+      m.positions.push_back(centre + offset() * size);
+    }
+  }
+  return m;
+}
+
+/// Positions and fanned faces alone: what the workload is made of.
+mesh read_positions(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw std::runtime_error(path + ": cannot be opened; give the path of an OBJ file");
+  mesh m;
+  for (std::string line; std::getline(file, line);) {
+    std::istringstream words(line);
+    std::string word;
+    words >> word;
+    if (word == "v") {
+      vec3f p;
+      if (std::sscanf(line.c_str() + 1, "%f %f %f", &p.x, &p.y, &p.z) != 3)
+        throw std::runtime_error(path + ": a vertex needs three numbers: " + line);
+      m.positions.push_back(p);
+    } else if (word == "f") {
+      std::vector<std::uint32_t> face;
+      for (long i = 0; words >> word;) {
+        i = std::strtol(word.c_str(), nullptr, 10);
+        i = i < 0 ? long(m.positions.size()) + i : i - 1;
+        if (i < 0 || i >= long(m.positions.size()))
+          throw std::runtime_error(path + ": no such vertex: " + line);
+        face.push_back(std::uint32_t(i));
+      }
+      for (std::size_t i = 2; i < face.size(); ++i)
+        m.indices.insert(m.indices.end(), {face[0], face[i - 1], face[i]});
+    }
+  }
+  if (m.indices.empty()) throw std::runtime_error(path + ": no triangles");
+  return m;
+}
+
+/// The i-th ray belongs to this pixel: 8 x 4 tiles, row by row.
+void pixel_of(int i, int& x, int& y) {
+  const int tile = i / 32, k = i % 32, across = picture_width / 8;
+  x = tile % across * 8 + k % 8;
+  y = tile / across * 4 + k / 8;
+}
+
+struct leaving {
+  vec3f point, normal;
+};
+
+/// A point just outside the surface that was hit, on the ray's side.
+leaving leave(const mesh& m, const ray& r, const hit& h) {
+  const vec3f a = m.position(h.triangle, 0), b = m.position(h.triangle, 1),
+              c = m.position(h.triangle, 2);
+  vec3f n = unit(cross(b - a, c - a));
+  if (dot(n, r.direction) > 0) n = n * -1.0f;
+  return {r.origin + r.direction * h.t + n * 1e-4f, n};
+}
+
+}  // namespace
+
+mesh load_workload(const std::string& name) {
+  mesh m = name.starts_with("terrain:") ? terrain(std::stoi(name.substr(8)))
+           : name.starts_with("soup:")  ? soup(std::stoi(name.substr(5)))
+                                        : read_positions(name);
+  box3f b;
+  for (const vec3f& p : m.positions) b.add(p);
+  const vec3f centre = b.centre(), e = b.extent();
+  const float scale = 1.0f / std::max(e.x, std::max(e.y, e.z));
+  for (vec3f& p : m.positions) p = (p - centre) * scale;
+  return m;
+}
+
+std::vector<ray> primary_rays() {
+  constexpr auto w = float(picture_width), h = float(picture_height);
+  const vec3f eye{0.75f, 0.55f, 1.05f}, at{0, -0.02f, 0};
+  const vec3f forward = unit(at - eye), right = unit(cross(forward, {0, 1, 0})),
+              up = cross(right, forward);
+  const float half = std::tan(0.5f * 40 * 3.14159265f / 180);
+  std::vector<ray> rays(std::size_t(picture_width) * picture_height);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    int x, y;
+    pixel_of(int(i), x, y);
+    const float sx = ((float(x) + 0.5f) / w * 2 - 1) * half * w / h;
+    const float sy = (1 - (float(y) + 0.5f) / h * 2) * half;
+    rays[i] = {eye, 0, unit(forward + right * sx + up * sy), 1e30f};
+  }
+  return rays;
+}
+
+std::vector<ray> bounce_rays(const mesh& m, const std::vector<ray>& primary,
+                             const std::vector<hit>& hits) {
+  std::vector<ray> rays;
+  for (std::size_t i = 0; i < primary.size(); ++i) {
+    if (!hits[i]) continue;
+    const auto [p, n] = leave(m, primary[i], hits[i]);
+    random_numbers random(std::uint32_t(i) * 2654435761u + 17);
+    const float angle = random.next() * 6.2831853f, z = random.next() * 2 - 1;
+    const float r = std::sqrt(std::max(0.0f, 1 - z * z));
+    const vec3f sphere{r * std::cos(angle), r * std::sin(angle), z};
+    rays.push_back({p, 0, unit(n + sphere * 0.9999f), 1e30f});
+  }
+  return rays;
+}
+
+std::vector<ray> shadow_rays(const mesh& m, const std::vector<ray>& primary,
+                             const std::vector<hit>& hits) {
+  const vec3f light{1.3f, 1.9f, -0.6f};
+  std::vector<ray> rays;
+  for (std::size_t i = 0; i < primary.size(); ++i) {
+    if (!hits[i]) continue;
+    const vec3f p = leave(m, primary[i], hits[i]).point;
+    rays.push_back({p, 0, light - p, 1});
+  }
+  return rays;
+}
+
+}  // namespace facet::bench

@@ -1,0 +1,33 @@
+// The workload of the trace figures: one mesh scaled to a longest side of 1 around the origin, the
+// eye rays of a 1920 x 1080 picture in tiles of 8 x 4, and from each of their hits one shadow ray
+// and one bounce ray. The floats are part of the definition: peers are compared on the same rays.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "reference/ray.hpp"
+#include "scene/mesh.hpp"
+
+namespace facet::bench {
+
+inline constexpr int picture_width = 1920, picture_height = 1080;
+
+using ray = reference::ray<float>;
+using hit = reference::hit<float>;
+
+/// "terrain:N" (2 N^2 triangles), "soup:N" (N triangles) or the path of an OBJ file, normalised.
+/// Throws std::runtime_error if the file cannot be read or holds no triangle.
+mesh load_workload(const std::string& name);
+
+std::vector<ray> primary_rays();
+
+/// Rays from the hits of `primary`, in the same order, misses left out.
+std::vector<ray> bounce_rays(const mesh& m, const std::vector<ray>& primary,
+                             const std::vector<hit>& hits);
+/// t = 1 is the light.
+std::vector<ray> shadow_rays(const mesh& m, const std::vector<ray>& primary,
+                             const std::vector<hit>& hits);
+
+}  // namespace facet::bench
