@@ -10,14 +10,14 @@ namespace facet {
 /// All colours are linear, per channel, finite and at least 0.
 struct material {
   std::string name;
-  vec3f Ke{0, 0, 0};        ///< emission
-  vec3f Ka{0, 0, 0};        ///< ambient reflection
+  vec3f Ke{0, 0, 0};           ///< emission
+  vec3f Ka{0, 0, 0};           ///< ambient reflection
   vec3f Kd{0.8f, 0.8f, 0.8f};  ///< diffuse reflection
-  vec3f Ks{0, 0, 0};        ///< specular reflection of lights
-  float Ns = 32;            ///< specular exponent, at least 0
-  vec3f Kr{0, 0, 0};        ///< mirror reflection, at most 1
-  vec3f Kt{0, 0, 0};        ///< transmission at each surface crossed, at most 1; 0 is opaque
-  float Ni = 1;             ///< index of refraction, greater than 0
+  vec3f Ks{0, 0, 0};           ///< specular reflection of lights
+  float Ns = 32;               ///< specular exponent, at least 0
+  vec3f Kr{0, 0, 0};           ///< mirror reflection, at most 1
+  vec3f Kt{0, 0, 0};           ///< transmission at each surface crossed, at most 1; 0 is opaque
+  float Ni = 1;                ///< index of refraction, greater than 0
   /// Colour left of white after `attenuation_distance` inside; absent means Kt.
   bool has_attenuation = false;
   vec3f attenuation{1, 1, 1};
@@ -27,7 +27,8 @@ struct material {
   bool is_transparent() const { return Kt.x > 0 || Kt.y > 0 || Kt.z > 0; }
   bool is_mirror() const { return Kr.x > 0 || Kr.y > 0 || Kr.z > 0; }
   /// sigma = -ln(A)/D per channel and scene unit (Beer-Lambert); 0 for opaque materials.
-  /// A channel with A = 0 takes A = 1e-30: e^-69 a unit, black in any picture and finite in any sum.
+  /// A channel with A = 0 takes A = 1e-30: e^-69 a unit, black in any picture and finite in any
+  /// sum.
   vec3d absorption() const;
 
   friend bool operator==(const material&, const material&) = default;

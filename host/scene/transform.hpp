@@ -7,7 +7,8 @@
 
 namespace facet {
 
-/// An affine map p -> linear * p + offset; `row[i]` holds (linear_i0, linear_i1, linear_i2, offset_i).
+/// An affine map p -> linear * p + offset; `row[i]` holds (linear_i0, linear_i1, linear_i2,
+/// offset_i).
 struct transform {
   std::array<std::array<double, 4>, 3> row{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
 
