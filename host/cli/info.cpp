@@ -1,0 +1,104 @@
+// facet info: what a scene holds and what it will take.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+
+#include "cli/command.hpp"
+#include "cli/console.hpp"
+#include "scene/load.hpp"
+#include "scene/world_bounds.hpp"
+#include "tracer/features.hpp"
+#include "tracer/layout.hpp"
+
+namespace facet::cli {
+namespace {
+
+constexpr std::size_t shown = 20;  // of each list
+
+std::uint64_t host_bytes(const scene& s) {
+  std::uint64_t bytes = 0;
+  for (const mesh& m : s.meshes)
+    bytes +=
+        (m.positions.size() + m.normals.size()) * sizeof(vec3f) +
+        4 * (m.indices.size() + m.normal_indices.size() + m.materials.size() + m.source.size());
+  return bytes + s.instances.size() * sizeof(instance) + s.materials.size() * sizeof(material);
+}
+
+/// What stays on the device: a node and three corners a triangle, normals where any mesh has them.
+std::uint64_t device_bytes(const scene& s) {
+  const bool smooth = tracer::features::of(s).smooth;
+  const std::uint64_t corners = 3 * 4 * sizeof(float);
+  return s.triangle_count() *
+             (sizeof(tracer::Node) + sizeof(tracer::TriangleInfo) + corners * (smooth ? 2 : 1)) +
+         s.instances.size() * (sizeof(tracer::Node) + sizeof(tracer::Instance)) +
+         s.materials.size() * sizeof(tracer::Material) + s.lights.size() * sizeof(tracer::Light);
+}
+
+std::string features_of(const scene& s, std::size_t index) {
+  const material& m = s.materials[index];
+  std::string words;
+  const auto add = [&](bool on, const char* word) {
+    if (on) words.append(words.empty() ? "" : ", ").append(word);
+  };
+  add(m.is_transparent(), "transparency");
+  add(m.is_mirror(), "reflection");
+  add(m.Ks.x > 0 || m.Ks.y > 0 || m.Ks.z > 0, "specular");
+  add(m.Ke.x > 0 || m.Ke.y > 0 || m.Ke.z > 0, "emission");
+  return words.empty() ? "diffuse alone" : words;
+}
+
+void print_rest(std::size_t count) {
+  if (count > shown) std::printf("  ... and %zu more\n", count - shown);
+}
+
+void print(const scene& s) {
+  std::uint64_t placed = 0;
+  for (const instance& i : s.instances) placed += s.meshes[i.mesh].triangle_count();
+  const box3d box = world_box<double>(s);
+  std::printf("scene       %s\n", s.name.c_str());
+  std::printf("picture     %ux%u, depth %u, %u %s a pixel\n", s.width, s.height, s.max_depth,
+              s.samples * s.samples, s.samples == 1 ? "sample" : "samples");
+  std::printf("triangles   %zu in %zu %s\n", s.triangle_count(), s.meshes.size(),
+              s.meshes.size() == 1 ? "mesh" : "meshes");
+  std::printf("instances   %zu, which show %llu triangles\n", s.instances.size(),
+              static_cast<unsigned long long>(placed));
+  std::printf("lights      %zu\n", s.lights.size());
+  if (box.empty())
+    std::printf("bounds      none: nothing is placed\n");
+  else
+    std::printf("bounds      (%g, %g, %g) to (%g, %g, %g)\n", box.lo.x, box.lo.y, box.lo.z,
+                box.hi.x, box.hi.y, box.hi.z);
+  std::printf("features    %s\n", tracer::features::of(s).names().c_str());
+  std::printf("memory      %s on the host, about %s on a device; a picture of %s\n",
+              bytes_text(double(host_bytes(s))).c_str(),
+              bytes_text(double(device_bytes(s))).c_str(),
+              bytes_text(16.0 * s.width * s.height).c_str());
+  std::printf("meshes      %zu\n", s.meshes.size());
+  for (std::size_t i = 0; i < s.meshes.size() && i < shown; ++i) {
+    const mesh& m = s.meshes[i];
+    std::printf("  %-16s %zu triangles, %s%s\n", m.name.c_str(), m.triangle_count(),
+                m.is_smooth() ? "smooth" : "flat",
+                m.dropped ? (", " + std::to_string(m.dropped) + " dropped").c_str() : "");
+  }
+  print_rest(s.meshes.size());
+  std::printf("materials   %zu\n", s.materials.size());
+  for (std::size_t i = 0; i < s.materials.size() && i < shown; ++i)
+    std::printf("  %-16s %s\n", s.materials[i].name.c_str(), features_of(s, i).c_str());
+  print_rest(s.materials.size());
+  if (!s.notes.empty()) std::printf("notes\n");
+  for (const std::string& note : s.notes) std::printf("  %s\n", note.c_str());
+}
+
+}  // namespace
+
+command add_info(CLI::App& program) {
+  auto* app = program.add_subcommand("info", "What a scene holds and what it needs");
+  auto file = std::make_shared<std::string>();
+  app->add_option("SCENE", *file, "A scene: .json, .obj or .ply")->required();
+  return {app, [file] {
+            print(load_scene(*file));
+            return int(done);
+          }};
+}
+
+}  // namespace facet::cli

@@ -1,0 +1,205 @@
+// facet render: from a scene to a picture.
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/command.hpp"
+#include "cli/console.hpp"
+#include "cli/device_choice.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/memory.hpp"
+#include "cli/options.hpp"
+#include "cli/picture_file.hpp"
+#include "cli/progress.hpp"
+#include "cli/stats_file.hpp"
+#include "image/output.hpp"
+#include "reference/tracer.hpp"
+#include "scene/load.hpp"
+
+namespace facet::cli {
+namespace {
+
+using clock = std::chrono::steady_clock;
+
+double milliseconds_since(clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(clock::now() - start).count();
+}
+
+struct arguments {
+  CLI::App* app = nullptr;
+  std::string scene, out, stats;
+  std::uint32_t width = 0, height = 0, max_depth = 0;  ///< 0 x 0: the scene's
+  size group, tile;
+  image::transfer transfer = image::transfer::srgb;
+  tracing_options tracing;
+  console say;
+};
+
+struct picture_shape {
+  std::uint32_t width, height, max_depth;
+};
+
+/// The other side of a picture of which one side is given, by the scene's own aspect.
+std::uint32_t other_side(double given, double from, double to, const char* name) {
+  const double side = std::max(1.0, std::round(given * to / from));
+  if (side > limits::image_side)
+    throw usage_error(std::string("the picture's ") + name + " would be " +
+                      std::to_string(std::uint64_t(side)) + " pixels; at most " +
+                      std::to_string(limits::image_side) + " are allowed");
+  return std::uint32_t(side);
+}
+
+picture_shape shape_of(const arguments& o, const scene& s) {
+  picture_shape p{s.width, s.height, o.app->count("--max-depth") ? o.max_depth : s.max_depth};
+  if (o.width && o.height)
+    p.width = o.width, p.height = o.height;
+  else if (o.width)
+    p.width = o.width, p.height = other_side(o.width, s.width, s.height, "height");
+  else if (o.height)
+    p.height = o.height, p.width = other_side(o.height, s.height, s.width, "width");
+  return p;
+}
+
+[[noreturn]] void interrupted_at(const arguments& o, std::uint64_t done, std::uint64_t total) {
+  const int percent = total ? int(100 * done / total) : 0;
+  throw interrupted_error("interrupted at " + std::to_string(percent) +
+                          "% of the picture; nothing was saved, and " + o.out +
+                          " is as it was before");
+}
+
+template <class T>
+picture render_serial(const arguments& o, const scene& s, picture_shape p,
+                      tracer::statistics& stats) {
+  stats.device = std::is_same_v<T, float> ? "serial" : "serial-double";
+  stats.platform = "one CPU thread, no OpenCL";
+  const auto built_from = clock::now();
+  const reference::tracer<T> tracer(s);
+  stats.build_ms = milliseconds_since(built_from);
+  stop_if_interrupted("building the tree");
+
+  const auto start = clock::now();
+  std::uint64_t done = 0;
+  progress_bar bar("rendering", o.say.quiet);
+  picture result =
+      tracer.render(p.width, p.height, p.max_depth, [&](std::uint64_t now, std::uint64_t total) {
+        bar.update(done = now, total);
+        return !interrupt_flag().load();
+      });
+  const std::uint64_t total = std::uint64_t(p.width) * p.height;
+  if (done < total) interrupted_at(o, done, total);
+  stats.wall_ms = milliseconds_since(start);
+  stats.kernel_ms = {stats.wall_ms};
+  stats.rays = total * s.samples * s.samples;
+  stats.tiles = p.height;
+  stats.features = "all";
+  return result;
+}
+
+picture render_on_device(const arguments& o, const scene& s, picture_shape p,
+                         tracer::statistics& stats) {
+  const runtime::device device = choose_device(o.tracing.device, o.say);
+  tracer::options options = o.tracing.tracer;
+  options.group_width = o.group.width, options.group_height = o.group.height;
+  options.tile_width = o.tile.width, options.tile_height = o.tile.height;
+  tracer::device_scene on_device(runtime::queue(device), s, options);
+  stop_if_interrupted("preparing the device");
+  progress_bar bar("rendering", o.say.quiet);
+  try {
+    return on_device.render(
+        p.width, p.height, p.max_depth, &stats,
+        [&](std::uint64_t done, std::uint64_t total) { bar.update(done, total); },
+        &interrupt_flag());
+  } catch (const tracer::cancelled& c) {
+    interrupted_at(o, c.done, c.total);
+  }
+}
+
+void check_outputs(const arguments& o) {
+  check_picture_output(o.out);
+  if (o.stats.empty()) return;
+  namespace fs = std::filesystem;
+  if (fs::absolute(o.stats).lexically_normal() == fs::absolute(o.out).lexically_normal())
+    throw usage_error("-o and --stats name the same file, " + o.out);
+  image::check_output(o.stats);
+}
+
+void write_stats(const arguments& o, picture_shape p, const tracer::statistics& stats) {
+  nlohmann::ordered_json content = to_json(stats);
+  content["scene"] = o.scene;
+  content["width"] = p.width;
+  content["height"] = p.height;
+  content["max_depth"] = p.max_depth;
+  write_json(o.stats, content);
+}
+
+int run(const arguments& o) {
+  if (o.tracing.serial())
+    refuse_with_serial(*o.app, {"--tree", "--geometry", "--kernels", "--all-features",
+                                "--work-group", "--tile-size"});
+  check_outputs(o);
+  const scene s = load_scene(o.scene);
+  o.say.notes(s.notes);
+  stop_if_interrupted("reading the scene");
+  const picture_shape p = shape_of(o, s);
+  require_memory(std::uint64_t(p.width) * p.height * 4 * (sizeof(float) + 1),
+                 "a picture of " + std::to_string(p.width) + "x" + std::to_string(p.height));
+
+  tracer::statistics stats;
+  const auto start = clock::now();
+  const picture result = o.tracing.serial_double() ? render_serial<double>(o, s, p, stats)
+                         : o.tracing.serial()      ? render_serial<float>(o, s, p, stats)
+                                                   : render_on_device(o, s, p, stats);
+  o.say.detail("compiled in " + duration_text(stats.compile_ms) + ", built in " +
+               duration_text(stats.build_ms) + ", traced in " +
+               duration_text(median(stats.kernel_ms)));
+  if (!stats.geometry.empty())
+    o.say.detail("geometry: " + stats.geometry + "; features: " + stats.features +
+                 "; work-group: " + std::to_string(stats.group_width) + "x" +
+                 std::to_string(stats.group_height));
+  write_picture_file(o.out, result, o.transfer);
+  if (!o.stats.empty()) write_stats(o, p, stats);
+  o.say.say("wrote " + o.out + ", " + std::to_string(p.width) + "x" + std::to_string(p.height) +
+            ", in " + duration_text(milliseconds_since(start)) + " on " + stats.device);
+  return done;
+}
+
+}  // namespace
+
+command add_render(CLI::App& program) {
+  auto o = std::make_shared<arguments>();
+  CLI::App* app = program.add_subcommand("render", "A picture of a scene");
+  o->app = app;
+  const std::uint32_t side = limits::image_side;
+  app->add_option("SCENE", o->scene, "A scene: .json; or a mesh alone: .obj, .ply")->required();
+  app->add_option("-o,--output", o->out,
+                  "The picture, by its extension: .png (8 bits), .exr or .npy (linear floats)")
+      ->type_name("FILE")
+      ->required();
+  app->add_option("--width", o->width, "Pixels; alone it keeps the scene's aspect ratio")
+      ->type_name("N")
+      ->check(whole_number(1, side, "pixels"));
+  app->add_option("--height", o->height, "Pixels; alone it keeps the scene's aspect ratio")
+      ->type_name("N")
+      ->check(whole_number(1, side, "pixels"));
+  app->add_option("--max-depth", o->max_depth,
+                  "Bounces; 0 traces eye rays and shadows alone (default: the scene's)")
+      ->type_name("N")
+      ->check(whole_number(0, limits::max_depth, "bounces"));
+  add_transfer(*app, o->transfer,
+               "Curve of a .png (default srgb); linear is the plain x255.\n"
+               ".exr and .npy are linear and not clamped");
+  add_tracing(*app, o->tracing);
+  add_size(*app, "--work-group", o->group, side,
+           "Work-items of a group (default: by the kind of device)");
+  add_size(*app, "--tile-size", o->tile, side,
+           "Pixels of a launch (default: as many as take about 50 ms)");
+  app->add_option("--stats", o->stats, "Write times and choices to this file, as JSON")
+      ->type_name("FILE");
+  add_console(*app, o->say);
+  return {app, [o] { return run(*o); }};
+}
+
+}  // namespace facet::cli

@@ -1,0 +1,47 @@
+#include "cli/stats_file.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "image/output.hpp"
+
+namespace facet::cli {
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  if (values.size() % 2 == 1) return *middle;
+  return (*std::max_element(values.begin(), middle) + *middle) / 2;
+}
+
+nlohmann::ordered_json to_json(const tracer::statistics& s) {
+  const double kernel_ms = median(s.kernel_ms);
+  return {{"version", FACET_VERSION},
+          {"device", s.device},
+          {"platform", s.platform},
+          {"driver", s.driver},
+          {"rays", s.rays},
+          {"kernel_ms", kernel_ms},
+          {"kernel_ms_all", s.kernel_ms},
+          {"mrays_per_s", kernel_ms > 0 ? double(s.rays) / kernel_ms / 1000 : 0},
+          {"compile_ms", s.compile_ms},
+          {"upload_ms", s.upload_ms},
+          {"build_ms", s.build_ms},
+          {"wall_ms", s.wall_ms},
+          {"work_group", {s.group_width, s.group_height}},
+          {"tiles", s.tiles},
+          {"geometry", s.geometry},
+          {"features", s.features},
+          {"tree_depth", s.tree_depth},
+          {"tree_nodes", s.tree_nodes},
+          {"device_bytes", s.device_bytes}};
+}
+
+void write_json(const std::filesystem::path& path, const nlohmann::ordered_json& content) {
+  // A device's or a file's name need not be UTF-8.
+  image::write_file(
+      path, content.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+}
+
+}  // namespace facet::cli
