@@ -29,10 +29,16 @@ box3f outward(const box3<T>& b) {
 }  // namespace
 
 mesh_tree::mesh_tree(const mesh& m) : bounds(m.bounds()), extent(extent_of(bounds)) {
-  std::vector<box3f> boxes(m.triangle_count());
-  for (std::size_t i = 0; i < boxes.size(); ++i)
-    for (int c = 0; c < 3; ++c) boxes[i].add(m.position(i, c));
+  std::vector<box3f> boxes;
+  std::vector<std::uint32_t> owners;
+  for (std::uint32_t i = 0; i < m.triangle_count(); ++i) {
+    const corners<float> p{m.position(i, 0), m.position(i, 1), m.position(i, 2)};
+    if (!has_area(p)) continue;
+    boxes.push_back(bounds_of(p));
+    owners.push_back(i);
+  }
   tree = wide_tree(boxes, tree_width);
+  for (std::uint32_t& i : tree.order) i = owners[i];
 
   constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
   blocks.resize(tree.leaf_count());

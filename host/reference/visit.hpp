@@ -49,13 +49,14 @@ bool geometry<T>::visit(const ray<T>& r, const T& limit, road by, Visit&& v) con
     }
     const space<T>& object = p.is_plain ? world : moved;
     if (by == road::brute_force) {
-      for (std::uint32_t i = 0; i < scene_.meshes[mesh_id].triangle_count(); ++i)
-        if (v(candidate<T>{world, object, p.world_box, instance, i, corners_of(instance, i)}))
-          return true;
+      for (std::uint32_t i = 0; i < scene_.meshes[mesh_id].triangle_count(); ++i) {
+        const candidate<T> c{world, object, p.world_box, instance, i, corners_of(instance, i)};
+        if (has_area(c.corner) && v(c)) return true;
+      }
       return false;
     }
     // Out of line, so that the walk keeps its registers: few blocks have a candidate.
-    const auto decide = [&] [[gnu::noinline]] (const triangle_block& b, unsigned mask) {
+    const auto decide = [&](const triangle_block& b, unsigned mask) __attribute__((noinline)) {
       for (; mask != 0; mask &= mask - 1) {
         const auto k = std::size_t(std::countr_zero(mask));
         candidate<T> c{world, object, p.world_box, instance, b.triangle[k], {}};
