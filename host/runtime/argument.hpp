@@ -51,6 +51,12 @@ constexpr bool scalar_argument = one_of<T, char, signed char, unsigned char, sho
 template <class T>
 constexpr bool three_scalars = alignof(T) <= 8 && sizeof(T) == 3 * alignof(T);
 
+/// device, platform, smart pointers: trivially copyable, perhaps, and no less a pointer.
+template <class T>
+concept holds_handle = requires(const T& t) {
+  requires std::is_pointer_v<decltype(t.get())>;
+};
+
 template <class T>
 constexpr bool value_argument() {
   if constexpr (std::is_enum_v<T>) {
@@ -59,7 +65,7 @@ constexpr bool value_argument() {
     return value_argument<typename T::value_type>() && !three_scalars<T>;
   } else if constexpr (std::is_class_v<T> || std::is_union_v<T>) {
     return std::is_trivially_copyable_v<T> && std::is_standard_layout_v<T> && !std::is_empty_v<T> &&
-           !three_scalars<T> && !is_extents<T>::value && !std::ranges::range<T>;
+           !three_scalars<T> && !is_extents<T>::value && !std::ranges::range<T> && !holds_handle<T>;
   } else {
     return scalar_argument<T>;
   }
