@@ -2,8 +2,11 @@
 
 #include <embree3/rtcore.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cstring>
 #include <stdexcept>
+#include <thread>
 
 #include "bench/measure.hpp"
 
@@ -56,15 +59,39 @@ embree_peer::~embree_peer() = default;
 double embree_peer::build_seconds() const { return state_->build; }
 
 void embree_peer::closest(const std::vector<ray>& rays, std::vector<hit>& hits) const {
+  trace_part(rays, false, 0, rays.size(), hits);
+}
+
+void embree_peer::trace(const std::vector<ray>& rays, bool any, unsigned threads,
+                        std::vector<hit>& hits) const {
+  constexpr std::size_t part = 4096;
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    for (std::size_t first; (first = next.fetch_add(part)) < rays.size();)
+      trace_part(rays, any, first, std::min(rays.size(), first + part), hits);
+  };
+  std::vector<std::thread> pool;
+  for (unsigned k = 1; k < threads; ++k) pool.emplace_back(work);
+  work();
+  for (std::thread& t : pool) t.join();
+}
+
+void embree_peer::trace_part(const std::vector<ray>& rays, bool any, std::size_t first,
+                             std::size_t last, std::vector<hit>& hits) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  for (std::size_t i = 0; i < rays.size(); ++i) {
+  for (std::size_t i = first; i < last; ++i) {
     const ray& r = rays[i];
     RTCRayHit x{};
     x.ray.org_x = r.origin.x, x.ray.org_y = r.origin.y, x.ray.org_z = r.origin.z;
     x.ray.dir_x = r.direction.x, x.ray.dir_y = r.direction.y, x.ray.dir_z = r.direction.z;
     x.ray.tnear = r.tmin, x.ray.tfar = r.tmax;
     x.ray.mask = ~0u;
+    if (any) {
+      rtcOccluded1(state_->scene, &context, &x.ray);
+      hits[i] = x.ray.tfar < 0 ? hit{0, 0, 0, 0, 0} : hit{r.tmax};
+      continue;
+    }
     x.hit.geomID = x.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(state_->scene, &context, &x);
     const bool found = x.hit.geomID != RTC_INVALID_GEOMETRY_ID;

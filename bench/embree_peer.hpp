@@ -21,8 +21,14 @@ class embree_peer {
   double build_seconds() const;
   /// The closest hit by rtcIntersect1, written as the reference writes it: instance 0.
   void closest(const std::vector<ray>& rays, std::vector<hit>& hits) const;
+  /// By rtcIntersect1, or with `any` by rtcOccluded1 (t, u, v are then undefined), on `threads`
+  /// threads that take parts of the rays in turn.
+  void trace(const std::vector<ray>& rays, bool any, unsigned threads,
+             std::vector<hit>& hits) const;
 
  private:
+  void trace_part(const std::vector<ray>& rays, bool any, std::size_t first, std::size_t last,
+                  std::vector<hit>& hits) const;
   struct state;
   std::unique_ptr<state> state_;
 };

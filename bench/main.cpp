@@ -8,6 +8,7 @@ int main(int argc, char** argv) {
   CLI::App app("Facet's benchmarks; peers take part where they were found at build time.");
   app.require_subcommand(1);
   facet::bench::add_reference_row(app);
+  facet::bench::add_trace_row(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -8,4 +8,7 @@ namespace facet::bench {
 /// The serial reference against Embree, one thread each, closest hits.
 void add_reference_row(CLI::App& app);
 
+/// An OpenCL device against Embree: primary, shadow and bounce rays.
+void add_trace_row(CLI::App& app);
+
 }  // namespace facet::bench

@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <fstream>
-#include <sstream>
-#include <stdexcept>
+
+#include "scene/generate.hpp"
+#include "scene/read_obj.hpp"
 
 namespace facet::bench {
 namespace {
@@ -32,78 +31,12 @@ class random_numbers {
 /// By the reciprocal: the rays were defined so.
 vec3f unit(vec3f a) { return a * (1.0f / std::sqrt(dot(a, a))); }
 
-mesh terrain(int n) {
-  mesh m;
-  const auto height = [](float x, float z) {
-    return 0.08f * std::sin(9 * x) * std::cos(7 * z) +
-           0.02f * std::sin(61 * x + 3 * z) * std::sin(53 * z) +
-           0.004f * std::sin(311 * x) * std::sin(293 * z + 11 * x);
-  };
-  for (int j = 0; j <= n; ++j)
-    for (int i = 0; i <= n; ++i) {
-      const float x = float(i) / float(n) - 0.5f, z = float(j) / float(n) - 0.5f;
-      const std::uint32_t block =
-          hash(std::uint32_t(i / 16) * 7919u + std::uint32_t(j / 16) * 104729u);
-      float y = height(x, z);
-      if (block % 8 == 0) y += 0.03f * float((block >> 8) & 255) / 255.0f;
-      m.positions.push_back({x, y, z});
-    }
-  const auto row = std::uint32_t(n + 1);
-  for (std::uint32_t j = 0; j + 1 < row; ++j)
-    for (std::uint32_t i = 0; i + 1 < row; ++i) {
-      const std::uint32_t a = j * row + i, b = a + 1, c = a + row, d = c + 1;
-      m.indices.insert(m.indices.end(), {a, c, b, b, c, d});
-    }
-  return m;
-}
-
-mesh soup(int n) {
-  mesh m;
-  random_numbers r(12345);
-  const float size = 0.6f / std::cbrt(float(n));
-  const auto offset = [&] {
-    const float x = r.next() - 0.5f, y = r.next() - 0.5f, z = r.next() - 0.5f;
-    return vec3f(x, y, z);
-  };
-  for (int i = 0; i < n; ++i) {
-    const vec3f centre = offset();
-    for (int k = 0; k < 3; ++k) {
-      m.indices.push_back(std::uint32_t(m.positions.size()));
-      m.positions.push_back(centre + offset() * size);
-    }
-  }
-  return m;
-}
-
-/// Positions and fanned faces alone: what the workload is made of.
-mesh read_positions(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw std::runtime_error(path + ": cannot be opened; give the path of an OBJ file");
-  mesh m;
-  for (std::string line; std::getline(file, line);) {
-    std::istringstream words(line);
-    std::string word;
-    words >> word;
-    if (word == "v") {
-      vec3f p;
-      if (std::sscanf(line.c_str() + 1, "%f %f %f", &p.x, &p.y, &p.z) != 3)
-        throw std::runtime_error(path + ": a vertex needs three numbers: " + line);
-      m.positions.push_back(p);
-    } else if (word == "f") {
-      std::vector<std::uint32_t> face;
-      for (long i = 0; words >> word;) {
-        i = std::strtol(word.c_str(), nullptr, 10);
-        i = i < 0 ? long(m.positions.size()) + i : i - 1;
-        if (i < 0 || i >= long(m.positions.size()))
-          throw std::runtime_error(path + ": no such vertex: " + line);
-        face.push_back(std::uint32_t(i));
-      }
-      for (std::size_t i = 2; i < face.size(); ++i)
-        m.indices.insert(m.indices.end(), {face[0], face[i - 1], face[i]});
-    }
-  }
-  if (m.indices.empty()) throw std::runtime_error(path + ": no triangles");
-  return m;
+/// "kind:n" in the words of the generators, or an OBJ file.
+mesh find_mesh(const std::string& name) {
+  for (const std::string kind : {"terrain", "soup"})
+    if (name.starts_with(kind + ":"))
+      return generate(kind, {{"n", std::stod(name.substr(kind.size() + 1))}});
+  return read_obj(name).mesh;
 }
 
 /// The i-th ray belongs to this pixel: 8 x 4 tiles, row by row.
@@ -129,9 +62,7 @@ leaving leave(const mesh& m, const ray& r, const hit& h) {
 }  // namespace
 
 mesh load_workload(const std::string& name) {
-  mesh m = name.starts_with("terrain:") ? terrain(std::stoi(name.substr(8)))
-           : name.starts_with("soup:")  ? soup(std::stoi(name.substr(5)))
-                                        : read_positions(name);
+  mesh m = find_mesh(name);
   box3f b;
   for (const vec3f& p : m.positions) b.add(p);
   const vec3f centre = b.centre(), e = b.extent();

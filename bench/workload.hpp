@@ -18,7 +18,7 @@ using ray = reference::ray<float>;
 using hit = reference::hit<float>;
 
 /// "terrain:N" (2 N^2 triangles), "soup:N" (N triangles) or the path of an OBJ file, normalised.
-/// Throws std::runtime_error if the file cannot be read or holds no triangle.
+/// Throws scene_error if the file cannot be read or holds no triangle.
 mesh load_workload(const std::string& name);
 
 std::vector<ray> primary_rays();

@@ -57,25 +57,31 @@ static inline Interval box_interval(const Slabs s, float3 lo, float3 hi) {
   return i;
 }
 
-// The intervals of a node's two children, cut to tmin and best: near[c] <= far[c] is left
-// exactly where child c must be visited.
-static inline void child_intervals(const Slabs s, float4 x, float4 y, float4 z, float tmin, float best,
-                            float near[2], float far[2]) {
-  const float4 nx = s.inverse.x > 0.0f ? x : x.zwxy;
-  const float4 ny = s.inverse.y > 0.0f ? y : y.zwxy;
-  const float4 nz = s.inverse.z > 0.0f ? z : z.zwxy;
-  near[0] = FACET_CULL_MAX(fma(nx.x, s.inverse.x, s.near_offset.x), tmin);
-  near[1] = FACET_CULL_MAX(fma(nx.y, s.inverse.x, s.near_offset.x), tmin);
-  far[0] = FACET_CULL_MIN(fma(nx.z, s.inverse.x, s.far_offset.x), best);
-  far[1] = FACET_CULL_MIN(fma(nx.w, s.inverse.x, s.far_offset.x), best);
-  near[0] = FACET_CULL_MAX(fma(ny.x, s.inverse.y, s.near_offset.y), near[0]);
-  near[1] = FACET_CULL_MAX(fma(ny.y, s.inverse.y, s.near_offset.y), near[1]);
-  far[0] = FACET_CULL_MIN(fma(ny.z, s.inverse.y, s.far_offset.y), far[0]);
-  far[1] = FACET_CULL_MIN(fma(ny.w, s.inverse.y, s.far_offset.y), far[1]);
-  near[0] = FACET_CULL_MAX(fma(nz.x, s.inverse.z, s.near_offset.z), near[0]);
-  near[1] = FACET_CULL_MAX(fma(nz.y, s.inverse.z, s.near_offset.z), near[1]);
-  far[0] = FACET_CULL_MIN(fma(nz.z, s.inverse.z, s.far_offset.z), far[0]);
-  far[1] = FACET_CULL_MIN(fma(nz.w, s.inverse.z, s.far_offset.z), far[1]);
+// Which side of each axis a ray meets first, as an index into Node's x, y and z.
+typedef struct {
+  uint x, y, z;
+} Sides;
+
+static inline Sides near_sides(const Slabs s) {
+  Sides n;
+  n.x = s.inverse.x > 0.0f ? 0u : 1u;
+  n.y = s.inverse.y > 0.0f ? 0u : 1u;
+  n.z = s.inverse.z > 0.0f ? 0u : 1u;
+  return n;
+}
+
+// The intervals of a node's children, cut to tmin and best: child c must be visited exactly
+// where near c <= far c. `faces` are the node's six sides in order.
+static inline void child_intervals(const Slabs s, const Sides side, __global const float4* faces,
+                                   float tmin, float best, float4* near, float4* far) {
+  const float4 nx = fma(faces[side.x], (float4)(s.inverse.x), (float4)(s.near_offset.x));
+  const float4 ny = fma(faces[2u + side.y], (float4)(s.inverse.y), (float4)(s.near_offset.y));
+  const float4 nz = fma(faces[4u + side.z], (float4)(s.inverse.z), (float4)(s.near_offset.z));
+  const float4 fx = fma(faces[1u - side.x], (float4)(s.inverse.x), (float4)(s.far_offset.x));
+  const float4 fy = fma(faces[3u - side.y], (float4)(s.inverse.y), (float4)(s.far_offset.y));
+  const float4 fz = fma(faces[5u - side.z], (float4)(s.inverse.z), (float4)(s.far_offset.z));
+  *near = cull_max(nz, cull_max(ny, cull_max(nx, (float4)(tmin))));
+  *far = cull_min(fz, cull_min(fy, cull_min(fx, (float4)(best))));
 }
 
 #endif

@@ -2,16 +2,16 @@
 #ifndef FACET_DEVICE_H
 #define FACET_DEVICE_H
 
-// The larger and the smaller of two numbers of which `bound` is never NaN; a NaN in `a` is dropped.
-// The sign of a zero may be either: use only where it cannot reach a result (culling nodes).
-// GPUs have one instruction for it; PoCL turns fmin and fmax into calls that cost six times the
-// comparison (measured on shadow rays).
+// The larger, or the smaller, by component, where `bound` is never NaN; a NaN in `a` is dropped. The
+// sign of a zero may be either: use only where it cannot reach a result (culling nodes). GPUs
+// have one instruction for it; PoCL turns fmax into calls that cost six times the comparison
+// (measured on shadow rays).
 #ifdef FACET_HARDWARE_MINMAX
-#define FACET_CULL_MAX(a, bound) fmax(a, bound)
-#define FACET_CULL_MIN(a, bound) fmin(a, bound)
+static inline float4 cull_max(float4 a, float4 bound) { return fmax(a, bound); }
+static inline float4 cull_min(float4 a, float4 bound) { return fmin(a, bound); }
 #else
-#define FACET_CULL_MAX(a, bound) ((a) > (bound) ? (a) : (bound))
-#define FACET_CULL_MIN(a, bound) ((a) < (bound) ? (a) : (bound))
+static inline float4 cull_max(float4 a, float4 bound) { return a > bound ? a : bound; }
+static inline float4 cull_min(float4 a, float4 bound) { return a < bound ? a : bound; }
 #endif
 
 #endif

@@ -37,14 +37,15 @@ struct FACET_ALIGNED TreeNode {
   uint spare;
 };
 
-// A node as traversal reads it: the bounds of both children, one axis to 16 bytes, then what they
-// are. A child is a node's index, or a leaf (FACET_LEAF).
+// A node as traversal reads it: the bounds of up to four children, one side of one axis to 16 bytes,
+// then what they are. A child is a node's index, or a leaf (FACET_LEAF). An absent child has bounds
+// that no ray meets: lo = INFINITY, hi = -INFINITY.
 struct FACET_ALIGNED Node {
-  float x[4];  // lo of child 0, lo of child 1, hi of child 0, hi of child 1
-  float y[4];
-  float z[4];
-  uint child[2];
-  uint spare[2];
+  float x[2][4];  // lo, hi
+  float y[2][4];
+  float z[2][4];
+  uint child[4];
+  uint spare[4];
 };
 
 // Where a triangle in leaf order comes from.
@@ -164,7 +165,7 @@ typedef struct Hit Hit;
 
 FACET_SIZE(Box, 32)
 FACET_SIZE(TreeNode, 48)
-FACET_SIZE(Node, 64)
+FACET_SIZE(Node, 128)
 FACET_SIZE(TriangleInfo, 16)
 FACET_SIZE(Instance, 160)
 FACET_SIZE(Material, 128)

@@ -1,29 +1,47 @@
 // From a builder's binary tree to what traversal reads.
 #include "vec.h"
 
-// Subtrees of at most leaf_size primitives become leaves: they cover consecutive primitives.
-static inline uint child_of(__global const TreeNode* nodes, uint child, uint count, uint leaf_size,
-                            uint node_offset, uint slot_offset) {
-  const uint first = nodes[child].first, size = nodes[child].last - first + 1u;
-  return size <= leaf_size ? FACET_LEAF(slot_offset + first, size) : node_offset + (child - count);
+static inline uint size_of(__global const TreeNode* n) { return n->last - n->first + 1u; }
+
+static inline float half_area(__global const TreeNode* n) {
+  const float3 e = vec_global(n->hi) - vec_global(n->lo);
+  return (e.x * e.y + e.y * e.z) + e.z * e.x;
 }
 
-// Node count + i of the binary tree stands at node_offset + i. Nodes inside leaves are not written.
+// Node count + i of the binary tree stands at node_offset + i, as if a ray could come there: its two
+// children are opened, the larger first, until they are four or all leaves. Only the nodes that the
+// root leads to are ever read. Subtrees of at most leaf_size primitives become leaves: they cover
+// consecutive primitives. Nodes inside leaves are not written.
 __kernel void make_nodes(__global const TreeNode* tree, __global Node* nodes, uint count,
                          uint leaf_size, uint node_offset, uint slot_offset) {
   const uint i = (uint)get_global_id(0);
-  if (i + 1u >= count) return;
-  __global const TreeNode* n = &tree[count + i];
-  if (n->last - n->first + 1u <= leaf_size) return;
-  __global const TreeNode* l = &tree[n->left];
-  __global const TreeNode* r = &tree[n->right];
+  if (i + 1u >= count || size_of(&tree[count + i]) <= leaf_size) return;
+  uint child[4] = {tree[count + i].left, tree[count + i].right, FACET_NONE, FACET_NONE};
+  for (uint children = 2u; children < 4u; ++children) {
+    float largest = -1.0f;
+    uint opened = 4u;
+    for (uint c = 0u; c < children; ++c)
+      if (size_of(&tree[child[c]]) > leaf_size && half_area(&tree[child[c]]) > largest) {
+        largest = half_area(&tree[child[c]]);
+        opened = c;
+      }
+    if (opened == 4u) break;
+    child[children] = tree[child[opened]].right;
+    child[opened] = tree[child[opened]].left;
+  }
   Node out;
-  out.x[0] = l->lo[0], out.x[1] = r->lo[0], out.x[2] = l->hi[0], out.x[3] = r->hi[0];
-  out.y[0] = l->lo[1], out.y[1] = r->lo[1], out.y[2] = l->hi[1], out.y[3] = r->hi[1];
-  out.z[0] = l->lo[2], out.z[1] = r->lo[2], out.z[2] = l->hi[2], out.z[3] = r->hi[2];
-  out.child[0] = child_of(tree, n->left, count, leaf_size, node_offset, slot_offset);
-  out.child[1] = child_of(tree, n->right, count, leaf_size, node_offset, slot_offset);
-  out.spare[0] = out.spare[1] = 0u;
+  for (uint c = 0u; c < 4u; ++c) {
+    const bool is_there = child[c] != FACET_NONE;
+    __global const TreeNode* n = &tree[is_there ? child[c] : 0u];
+    out.x[0][c] = is_there ? n->lo[0] : INFINITY, out.x[1][c] = is_there ? n->hi[0] : -INFINITY;
+    out.y[0][c] = is_there ? n->lo[1] : INFINITY, out.y[1][c] = is_there ? n->hi[1] : -INFINITY;
+    out.z[0][c] = is_there ? n->lo[2] : INFINITY, out.z[1][c] = is_there ? n->hi[2] : -INFINITY;
+    const uint size = size_of(n);
+    out.child[c] = !is_there          ? FACET_NONE
+                   : size <= leaf_size ? FACET_LEAF(slot_offset + n->first, size)
+                                       : node_offset + (child[c] - count);
+    out.spare[c] = 0u;
+  }
   nodes[node_offset + i] = out;
 }
 

@@ -1,4 +1,4 @@
 // The structures shared with the kernels, as C++.
 #pragma once
 
-#include "layout.h"
+#include "cl/layout.h"

@@ -68,25 +68,23 @@ void pack_mesh(const mesh& m, bool with_normals, packed_scene& to) {
 
 }  // namespace
 
-packed_scene pack(const scene& s) {
+packed_scene pack(const scene& s, bool with_normals) {
   packed_scene p;
   std::vector<bool> is_shown(s.meshes.size(), false);
-  bool is_smooth = false;
   std::size_t total = 0;
   for (const instance& i : s.instances) {
     if (!is_shown[i.mesh]) total += s.meshes[i.mesh].triangle_count();
     is_shown[i.mesh] = true;
-    is_smooth = is_smooth || s.meshes[i.mesh].is_smooth();
   }
   p.corners.reserve(3 * total);
-  if (is_smooth) p.normals.reserve(3 * total);
+  if (with_normals) p.normals.reserve(3 * total);
   p.triangle_materials.reserve(total);
 
   for (std::size_t k = 0; k < s.meshes.size(); ++k) {
     packed_mesh placed;
     placed.first_triangle = std::uint32_t(p.triangle_materials.size());
     if (is_shown[k]) {
-      pack_mesh(s.meshes[k], is_smooth, p);
+      pack_mesh(s.meshes[k], with_normals, p);
       placed.reach = reach_of(s.meshes[k].bounds());
     }
     placed.triangle_count = std::uint32_t(p.triangle_materials.size()) - placed.first_triangle;

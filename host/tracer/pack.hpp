@@ -21,8 +21,8 @@ struct packed_mesh {
 struct packed_scene {
   /// 3 texels a triangle, meshes one after the other in mesh order; w is 0.
   std::vector<texel> corners;
-  /// The same for normals; all 0 for a flat mesh (the kernel then takes the plane's). Empty if no
-  /// mesh is smooth.
+  /// The same for normals; all 0 for a flat mesh (the kernel then takes the plane's). Empty unless
+  /// they were asked for.
   std::vector<texel> normals;
   std::vector<std::uint32_t> triangle_materials;  ///< 1 a triangle
   std::vector<packed_mesh> meshes;
@@ -35,7 +35,7 @@ struct packed_scene {
 };
 
 /// The scene must be valid (scene/validate.hpp). Meshes that no instance shows are packed as empty.
-packed_scene pack(const scene& s);
+packed_scene pack(const scene& s, bool with_normals);
 
 /// The camera and surroundings of a picture. Throws scene_error if the camera is degenerate.
 View pack_view(const scene& s, std::uint32_t width, std::uint32_t height, std::uint32_t max_depth);

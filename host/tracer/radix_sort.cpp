@@ -18,7 +18,7 @@ radix_sort<Key>::radix_sort(runtime::queue q, const runtime::source_tree& kernel
     : queue_(q),
       tuning_(t),
       program_(q.get_context(), kernels, "radix_sort.cl",
-               sizeof(Key) == 8 ? "-DKEY=ulong" : "-DKEY=uint"),
+               t.flags() + (sizeof(Key) == 8 ? " -DKEY=ulong" : " -DKEY=uint")),
       count_(program_.get_kernel("count_digits")),
       scan_(program_.get_kernel("scan_digits")),
       scatter_(program_.get_kernel("scatter")) {}

@@ -108,6 +108,8 @@ picture device_scene::render(std::uint32_t width, std::uint32_t height, std::uin
     });
   };
 
+  // The first launch of a work-group size may compile (PoCL does): one pixel pays for it.
+  launch({0, 0, 1, 1}).wait_and_throw();
   std::uint64_t done = 0;
   double kernel_ms = 0;
   std::uint32_t tiles = 0;

@@ -35,7 +35,7 @@ device_scene::device_scene(runtime::queue queue, const scene& s, options o) {
                          (o.geometry == geometry_kind::automatic && tuned.image_geometry);
   runtime::source_tree kernels =
       o.kernel_folder.empty() ? kernel_sources() : runtime::read_folder(o.kernel_folder);
-  packed_scene packed = pack(s);
+  packed_scene packed = pack(s, used.smooth);
   runtime::buffer<Light> lights = light_buffer(packed.lights);
   device_geometry geometry =
       build_geometry(queue, kernels, std::move(packed), used, o.tree, in_images, tuned);

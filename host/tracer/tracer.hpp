@@ -70,8 +70,8 @@ using progress = std::function<void(std::uint64_t done, std::uint64_t total)>;
 /// Thrown out of render when `cancel` became true: the tile under way was finished, the rest not.
 struct cancelled : std::runtime_error {
   std::uint64_t done, total;  ///< pixels
-  cancelled(std::uint64_t done, std::uint64_t total)
-      : std::runtime_error("cancelled"), done(done), total(total) {}
+  cancelled(std::uint64_t pixels_done, std::uint64_t pixels_total)
+      : std::runtime_error("cancelled"), done(pixels_done), total(pixels_total) {}
 };
 
 /// A scene on a device: packed, its tree built. Throws runtime::exception for what the device

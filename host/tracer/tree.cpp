@@ -158,7 +158,7 @@ device_geometry build_geometry(runtime::queue& q, const runtime::source_tree& ke
                                packed_scene packed, const features& f, tree_kind kind,
                                bool in_images, const tuning& t) {
   const std::size_t triangles = packed.world.triangle_count;
-  const bool smooth = !packed.normals.empty() && f.smooth;
+  const bool smooth = f.smooth;
   std::uint32_t largest = 0;
   for (const packed_mesh& m : packed.meshes) largest = std::max(largest, m.triangle_count);
   const std::uint64_t peak = peak_bytes(triangles, largest, smooth, in_images);
@@ -236,8 +236,8 @@ device_geometry build_geometry(runtime::queue& q, const runtime::source_tree& ke
     placed = std::move(sorted);
     g.depth = top.depth + mesh_depth;
   }
-  // One entry a level of either tree, and one where an instance is entered.
-  g.stack = g.depth + (f.instances ? 1 : 0);
+  // cl/traverse.h: three entries a level of either tree, and one where an instance is entered.
+  g.stack = 3 * g.depth + (f.instances ? 1 : 0);
   if (!placed.empty()) g.instances = runtime::buffer<Instance>(placed.data(), placed.size());
   g.world = runtime::buffer<World>(&packed.world, 1);
   if (in_images) {

@@ -2,10 +2,16 @@
 
 namespace facet::tracer {
 
-std::string tuning::flags() const { return hardware_minmax ? " -DFACET_HARDWARE_MINMAX" : ""; }
+std::string tuning::flags() const {
+  std::string options = " -cl-std=CL1.2";
+  if (correctly_rounded) options += " -cl-fp32-correctly-rounded-divide-sqrt";
+  if (hardware_minmax) options += " -DFACET_HARDWARE_MINMAX";
+  return options;
+}
 
 tuning tuning_for(const runtime::device& d) {
   tuning t;
+  t.correctly_rounded = d.has_correctly_rounded_divide_sqrt();
   if (d.is_gpu()) {
     t.hardware_minmax = true;
     t.sort_tiles = 1u << 14;

@@ -1,0 +1,170 @@
+// Hits of the device against those of the reference, bit for bit.
+#include <doctest/doctest.h>
+
+#include <cstring>
+#include <vector>
+
+#include "reference/tracer.hpp"
+#include "tracer/device_helper.hpp"
+#include "tracer/scenes_helper.hpp"
+#include "tracer/tracer.hpp"
+
+using namespace facet;
+using tracer::device_scene;
+using tracer::geometry_kind;
+using tracer::hit;
+using tracer::options;
+using tracer::ray;
+using tracer::tree_kind;
+
+namespace {
+
+reference::ray<float> to_reference(const ray& r) {
+  return {{r.origin[0], r.origin[1], r.origin[2]},
+          r.tmin,
+          {r.direction[0], r.direction[1], r.direction[2]},
+          r.tmax};
+}
+
+bool same_bits(const hit& a, const reference::hit<float>& b) {
+  return std::memcmp(&a.t, &b.t, 4) == 0 && std::memcmp(&a.u, &b.u, 4) == 0 &&
+         std::memcmp(&a.v, &b.v, 4) == 0 && a.instance == b.instance && a.triangle == b.triangle;
+}
+
+std::vector<options> every_way() {
+  std::vector<options> ways;
+  for (tree_kind t : {tree_kind::levels, tree_kind::none})
+    for (geometry_kind g : {geometry_kind::buffer, geometry_kind::image})
+      for (bool all : {false, true}) {
+        options o;
+        o.tree = t;
+        o.geometry = g;
+        o.all_features = all;
+        ways.push_back(o);
+      }
+  return ways;
+}
+
+/// Differing hits of all ways to trace against brute force in the reference; and how many hit.
+void check_hits(const scene& s, const std::vector<ray>& rays) {
+  const reference::tracer<float> serial(s);
+  std::vector<reference::hit<float>> expected;
+  std::size_t met = 0;
+  for (const ray& r : rays) {
+    expected.push_back(serial.closest_brute(to_reference(r)));
+    met += expected.back().instance != reference::miss;
+  }
+  CHECK(met > rays.size() / 20);  // a comparison of misses alone would show nothing
+  for (const options& o : every_way()) {
+    device_scene on_device(test::queue(), s, o);
+    const auto hits = on_device.trace(rays);
+    const auto any = on_device.trace(rays, true);
+    std::size_t differing = 0, any_differing = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      differing += !same_bits(hits[i], expected[i]);
+      any_differing +=
+          (any[i].triangle != tracer::miss) != (expected[i].instance != reference::miss);
+    }
+    CAPTURE(int(o.tree));
+    CAPTURE(int(o.geometry));
+    CAPTURE(o.all_features);
+    CHECK(differing == 0);
+    CHECK(any_differing == 0);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("one mesh: every tree, geometry and feature set gives the reference's bits") {
+  check_hits(test::one_mesh(test::random_soup(500, 1)), test::random_rays(4000, 1));
+}
+
+TEST_CASE("instances, stretched, mirrored, tiny and huge, give the reference's bits") {
+  check_hits(test::many_instances(), test::random_rays(2000, 2, 2));
+}
+
+TEST_CASE("a closed smooth mesh gives the reference's bits, from inside and outside") {
+  check_hits(
+      test::one_mesh(generate("torus_knot", {{"segments", 64}, {"sides", 8}, {"smooth", 1}})),
+      test::random_rays(4000, 3));
+}
+
+TEST_CASE("meshes of 1 to 9 triangles, at every size around a leaf") {
+  for (std::uint32_t n = 1; n <= 9; ++n) {
+    CAPTURE(n);
+    mesh m = test::random_soup(n, n);
+    for (vec3f& p : m.positions) p = p * 2.0f;
+    const scene s = test::one_mesh(m);
+    device_scene on_device(test::queue(), s);
+    const reference::tracer<float> serial(s);
+    const auto rays = test::random_rays(500, n);
+    const auto hits = on_device.trace(rays);
+    std::size_t differing = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i)
+      differing += !same_bits(hits[i], serial.closest_brute(to_reference(rays[i])));
+    CHECK(differing == 0);
+  }
+}
+
+TEST_CASE("of coincident triangles the lowest instance, then the lowest triangle is hit") {
+  mesh m = test::random_soup(1, 5);
+  m.positions = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
+  m.indices.clear();
+  for (int k = 0; k < 300; ++k) m.indices.insert(m.indices.end(), {0u, 1u, 2u});
+  scene s = test::one_mesh(m);
+  s.instances.assign(5, instance{});
+  const std::vector<ray> rays(64, ray{{0.1f, 0.1f, 2}, 0, {0, 0, -1}, INFINITY});
+  for (const options& o : every_way()) {
+    device_scene on_device(test::queue(), s, o);
+    for (const hit& h : on_device.trace(rays)) {
+      CHECK(h.instance == 0);
+      CHECK(h.triangle == 0);
+      CHECK(h.t == 2);
+    }
+  }
+}
+
+TEST_CASE("tmin and tmax are inclusive, a negative tmin counts as 0") {
+  mesh m;
+  m.positions = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
+  m.indices = {0, 1, 2};
+  device_scene on_device(test::queue(), test::one_mesh(m));
+  const auto from = [](float z, float tmin, float tmax) {
+    return ray{{0, 0, z}, tmin, {0, 0, -1}, tmax};
+  };
+  const std::vector<ray> rays{from(2, 0, 2),      from(2, 2, 9), from(2, 0, 1.999f),
+                              from(2, 2.001f, 9), from(0, 0, 1), from(-1, -5, 5)};
+  const auto hits = on_device.trace(rays);
+  CHECK(hits[0].t == 2);
+  CHECK(hits[1].t == 2);
+  CHECK(hits[2].triangle == tracer::miss);
+  CHECK(hits[2].t == 1.999f);
+  CHECK(hits[3].triangle == tracer::miss);
+  CHECK(hits[4].t == 0);
+  CHECK(hits[5].triangle == tracer::miss);
+}
+
+TEST_CASE("rays that cannot be used meet nothing") {
+  device_scene on_device(test::queue(), test::one_mesh(generate("box", {{"size", 2}})));
+  const std::vector<ray> rays{{{0, 0, 0}, 0, {0, 0, 0}, 1},
+                              {{0, 0, 0}, 0, {NAN, 0, 1}, 1},
+                              {{NAN, 0, 0}, 0, {0, 0, 1}, 9},
+                              {{0, 0, 0}, NAN, {0, 0, 1}, 9},
+                              {{0, 0, 0}, 0, {0, 0, 1}, NAN},
+                              {{0, 0, 0}, 5, {0, 0, 1}, 4},
+                              {{0, 0, INFINITY}, 0, {0, 0, -1}, INFINITY},
+                              {{0, 0, 0}, 0, {0, 0, INFINITY}, INFINITY},
+                              {{0, 0, 0}, 0, {0, 0, 1e-30f}, INFINITY}};
+  for (const hit& h : on_device.trace(rays)) CHECK(h.triangle == tracer::miss);
+}
+
+TEST_CASE("no rays give no hits, and statistics say what ran") {
+  device_scene on_device(test::queue(), test::one_mesh(generate("box", {{"size", 2}})));
+  CHECK(on_device.trace({}).empty());
+  tracer::statistics stats;
+  on_device.trace(test::random_rays(1000, 9), false, 3, &stats);
+  CHECK(stats.rays == 1000);
+  CHECK(stats.kernel_ms.size() == 3);
+  CHECK(stats.tree_nodes == 2 * 12 - 1);
+  CHECK(!stats.device.empty());
+}
