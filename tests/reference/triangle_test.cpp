@@ -136,6 +136,36 @@ TEST_CASE("corners on a line have no area, a sliver one ulp wide has") {
   }
 }
 
+TEST_CASE_TEMPLATE("a ray on an edge goes to the side of a shift by (e, e^2) in sheared x and y", T,
+                   float, double) {
+  // Along -z sheared x is y and sheared y is x: the ray moves to +y, and far less to +x.
+  const corners<T> above{vec3<T>(), vec3<T>(4, 4, 0), vec3<T>(0, 4, 0)};
+  const corners<T> right{vec3<T>(), vec3<T>(4, 0, 0), vec3<T>(4, 4, 0)};
+  const corners<T> left{vec3<T>(), vec3<T>(0, 4, 0), vec3<T>(-4, 4, 0)};
+  const auto side = [&](T x, T y, const corners<T>& p) {
+    const auto s = looking<T>({x, y, 1}, {0, 0, -1});
+    return triangle_test<T>(s, p).side();
+  };
+  CHECK(side(0, 0, above) == 1);
+  CHECK(side(0, 0, right) == 0);
+  CHECK(side(0, 0, left) == 0);
+  CHECK(side(2, 0, right) == 1);
+  CHECK(side(2, 2, above) == 1);
+  CHECK(side(2, 2, right) == 0);
+  CHECK(side(0, 2, above) == 1);
+  CHECK(side(0, 2, left) == 0);
+}
+
+TEST_CASE("where products underflow, the triangle's own slab interval still holds t") {
+  // Edge functions of 2^-132 times 2^-40 are 0: without the clamp t would be, too.
+  const float size = 0x1p-66f, away = 0x1p-40f;
+  const corners<float> p{vec3f(-size, -size, 0), vec3f(size, -size, 0), vec3f(0, size, 0)};
+  const auto s = looking<float>({0, 0, away}, {0, 0, -1}, size);
+  const auto h = triangle_test<float>(s, p).accept({}, 0, infinity<float>);
+  REQUIRE(h);
+  CHECK(std::abs(h->t - away) <= 2 * s.pad);
+}
+
 TEST_CASE("coordinates whose products overflow still give t") {
   const float big = 0x1p59f;
   const corners<float> p{vec3f(-big, -big, 0), vec3f(big, -big, 0), vec3f(0, big, 0)};
