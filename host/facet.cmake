@@ -30,3 +30,28 @@ function(facet_library name)
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/host> $<INSTALL_INTERFACE:include/facet>)
   target_link_libraries(facet_${name} PUBLIC facet_options ${ARG_LINKS} PRIVATE ${ARG_PRIVATE_LINKS})
 endfunction()
+
+# What find_package(facet) brings: the libraries that need no picture files, their headers, and
+# layout.h. Called once, after all folders.
+function(facet_install)
+  include(GNUInstallDirs)
+  include(CMakePackageConfigHelpers)
+  set(libraries runtime scene image reference tracer study)
+  list(TRANSFORM libraries PREPEND facet_ OUTPUT_VARIABLE targets)
+  install(TARGETS facet_options ${targets} EXPORT facet-targets)
+  install(TARGETS facet)
+  foreach(folder ${libraries})
+    install(DIRECTORY ${PROJECT_SOURCE_DIR}/host/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/facet
+            FILES_MATCHING PATTERN "*.hpp")
+  endforeach()
+  install(FILES ${PROJECT_SOURCE_DIR}/cl/layout.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/facet/cl)
+  set(config ${CMAKE_INSTALL_LIBDIR}/cmake/facet)
+  install(EXPORT facet-targets NAMESPACE facet:: DESTINATION ${config})
+  file(WRITE ${PROJECT_BINARY_DIR}/facet-config.cmake
+    "include(CMakeFindDependencyMacro)\nfind_dependency(OpenCL)\n"
+    "include(\${CMAKE_CURRENT_LIST_DIR}/facet-targets.cmake)\n")
+  write_basic_package_version_file(${PROJECT_BINARY_DIR}/facet-config-version.cmake
+    COMPATIBILITY SameMinorVersion)
+  install(FILES ${PROJECT_BINARY_DIR}/facet-config.cmake
+                ${PROJECT_BINARY_DIR}/facet-config-version.cmake DESTINATION ${config})
+endfunction()

@@ -56,9 +56,19 @@ Light pack_light(const light& l) {
   return p;
 }
 
+/// False where the corners lie on one line: exact, as differences and products of floats fit a double
+/// unless their sizes differ by more than 2^28.
+bool has_area(const mesh& m, std::size_t t) {
+  const vec3d a(m.position(t, 0)), b(m.position(t, 1)), c(m.position(t, 2));
+  return cross(b - a, c - a) != vec3d();
+}
+
 void pack_mesh(const mesh& m, bool with_normals, packed_scene& to) {
   for (std::size_t t = 0; t < m.triangle_count(); ++t) {
-    for (int c = 0; c < 3; ++c) to.corners.push_back(texel_of(m.position(t, c)));
+    // A triangle without an area is never hit. Rounding might open it to a ray: as a point it is
+    // shut, and keeps its index.
+    const bool is_open = has_area(m, t);
+    for (int c = 0; c < 3; ++c) to.corners.push_back(texel_of(m.position(t, is_open ? c : 0)));
     if (with_normals)
       for (int c = 0; c < 3; ++c)
         to.normals.push_back(m.is_smooth() ? texel_of(m.normal(t, c)) : texel{});

@@ -15,9 +15,10 @@ using namespace facet::tracer;
 // here and, as a string, on the device.
 #define FIELDS(SIZE, FIELD)                                                                        \
   SIZE(Box)                                                                                        \
-  FIELD(Box, hi) FIELD(Box, spare1) SIZE(TreeNode) FIELD(TreeNode, left) FIELD(                    \
-      TreeNode, right) FIELD(TreeNode, height) SIZE(Node) FIELD(Node, y) FIELD(Node, z)            \
-      FIELD(Node, child) SIZE(TriangleInfo) FIELD(TriangleInfo, material) SIZE(Instance) FIELD(    \
+  FIELD(Box, hi)                                                                                   \
+  FIELD(Box, spare1) SIZE(TreeNode) FIELD(TreeNode, left) FIELD(TreeNode, right) FIELD(            \
+      TreeNode, height) SIZE(Node) FIELD(Node, y) FIELD(Node, z) FIELD(Node, child)                \
+      SIZE(TriangleInfo) FIELD(TriangleInfo, material) SIZE(Instance) FIELD(                       \
           Instance, world_from_object) FIELD(Instance, lo) FIELD(Instance, id) FIELD(Instance, hi) \
           FIELD(Instance, root) FIELD(Instance, reach) FIELD(Instance, material) FIELD(            \
               Instance, first_triangle) FIELD(Instance, triangle_count) SIZE(Material)             \

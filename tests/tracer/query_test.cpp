@@ -124,6 +124,34 @@ TEST_CASE("of coincident triangles the lowest instance, then the lowest triangle
   }
 }
 
+TEST_CASE("triangles without an area are never hit, as in the reference") {
+  // Corners on random lines, where rounding alone would open them, and among them ordinary ones.
+  test::random r(11);
+  mesh m = test::random_soup(50, 8);
+  for (int k = 0; k < 400; ++k) {
+    const vec3f a = r.in_cube(), step = r.in_cube() * 0x1p-4f;
+    const auto first = std::uint32_t(m.positions.size());
+    // Sums of few bits, so that the three are on one line exactly.
+    const auto grid = [](vec3f v) {
+      return vec3f{std::round(v.x * 1024) / 1024, std::round(v.y * 1024) / 1024,
+                   std::round(v.z * 1024) / 1024};
+    };
+    const vec3f from = grid(a), by = grid(step);
+    m.positions.insert(m.positions.end(), {from, from + by, from + by * 3.0f});
+    m.indices.insert(m.indices.end(), {first, first + 1, first + 2});
+  }
+  std::vector<ray> rays = test::random_rays(2000, 4);
+  for (int k = 0; k < 400; ++k) {  // through points of the lines
+    const vec3f a = m.positions[std::size_t(150 + 3 * k)],
+                b = m.positions[std::size_t(152 + 3 * k)];
+    const vec3f o = r.in_cube() * 3.0f, to = a + (b - a) * r.uniform(), d = to - o;
+    rays.push_back({{o.x, o.y, o.z}, 0, {d.x, d.y, d.z}, INFINITY});
+  }
+  check_hits(test::one_mesh(m), rays);
+  device_scene on_device(test::queue(), test::one_mesh(m));
+  for (const hit& h : on_device.trace(rays)) CHECK((h.triangle < 50 || h.triangle == tracer::miss));
+}
+
 TEST_CASE("tmin and tmax are inclusive, a negative tmin counts as 0") {
   mesh m;
   m.positions = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};

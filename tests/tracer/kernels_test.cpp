@@ -1,0 +1,55 @@
+#include "tracer/kernels.hpp"
+
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "tracer/device_helper.hpp"
+#include "tracer/scenes_helper.hpp"
+
+using namespace facet;
+using namespace facet::tracer;
+
+TEST_CASE("the library holds every file of cl/, and a folder gives the same") {
+  const runtime::source_tree& embedded = kernel_sources();
+  for (const char* name :
+       {"layout.h", "trace.cl", "render.cl", "morton.cl", "radix_sort.cl", "levels.cl", "tree.cl"})
+    CHECK(embedded.files.count(name) == 1);
+  const auto folder = std::filesystem::temp_directory_path() / "facet_kernels_test";
+  std::filesystem::create_directories(folder);
+  for (const auto& [name, text] : embedded.files) std::ofstream(folder / name) << text;
+  CHECK(runtime::read_folder(folder).files == embedded.files);
+
+  // A kernel edited there is what runs: one that paints everything with alpha 0.5.
+  {
+    std::ofstream render(folder / "render.cl");
+    std::string text = embedded.files.at("render.cl");
+    const std::string from = "= sum / (float)(n * n);";
+    text.replace(text.find(from), from.size(), "= (float4)(0.5f);");
+    render << text;
+  }
+  options o;
+  o.kernel_folder = folder.string();
+  device_scene edited(test::queue(), test::one_mesh(generate("box", {})), o);
+  CHECK(edited.render(4, 4, 1).rgba == std::vector<float>(64, 0.5f));
+  std::filesystem::remove_all(folder);
+  CHECK_THROWS_AS(device_scene(test::queue(), test::one_mesh(generate("box", {})), o),
+                  runtime::exception);
+}
+
+TEST_CASE("options name what is left out and what was chosen; stacks grow in steps") {
+  const features none{false, false, false, false, false};
+  const std::string o = traversal_options(none, tree_kind::none, true, 33, 5, tuning{});
+  CHECK(o.find("-DFACET_NO_TRANSPARENCY") != std::string::npos);
+  CHECK(o.find("-DFACET_TREE_NONE") != std::string::npos);
+  CHECK(o.find("-DFACET_GEOMETRY_IMAGE") != std::string::npos);
+  CHECK(o.find("-DFACET_STACK=64") != std::string::npos);
+  CHECK(o.find("-DFACET_RAY_STACK=8") != std::string::npos);
+  const std::string all =
+      traversal_options(features::all(), tree_kind::levels, false, 1, 9, tuning{});
+  CHECK(all.find("FACET_NO_") == std::string::npos);
+  CHECK(all.find("-DFACET_STACK=32") != std::string::npos);
+  CHECK(all.find("-DFACET_RAY_STACK=16") != std::string::npos);
+}

@@ -1,0 +1,132 @@
+#include "tracer/tree.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <set>
+#include <vector>
+
+#include "tracer/device_helper.hpp"
+#include "tracer/kernels.hpp"
+#include "tracer/scenes_helper.hpp"
+
+using namespace facet;
+using namespace facet::tracer;
+
+namespace {
+
+device_geometry geometry_of(const scene& s, tree_kind kind, bool in_images = false) {
+  const features f = features::of(s);
+  return build_geometry(test::queue(), kernel_sources(), pack(s, f.smooth), f, kind, in_images,
+                        tuning_for(test::device()));
+}
+
+template <class T>
+std::vector<T> content(const runtime::buffer<T>& b) {
+  const runtime::host_accessor read{b, runtime::read_only};
+  return {read.begin(), read.end()};
+}
+
+bool holds(const Node& n, std::uint32_t child, const texel& p) {
+  return n.x[0][child] <= p[0] && p[0] <= n.x[1][child] && n.y[0][child] <= p[1] &&
+         p[1] <= n.y[1][child] && n.z[0][child] <= p[2] && p[2] <= n.z[1][child];
+}
+
+/// Walks a mesh's tree; gives the slots that its leaves cover and the longest way down.
+struct walk {
+  const std::vector<Node>& nodes;
+  const std::vector<texel>& corners;
+  std::multiset<std::uint32_t> slots = {};
+  std::uint32_t deepest = 0, escaped = 0, visited = 0;
+
+  /// `way`: the nodes and children that led here; each must hold what is below.
+  void down(std::uint32_t child, std::vector<std::pair<std::uint32_t, std::uint32_t>> way) {
+    REQUIRE(++visited < 1'000'000);
+    deepest = std::max(deepest, std::uint32_t(way.size()));
+    if (child & FACET_LEAF_BIT) {
+      for (std::uint32_t k = 0; k < FACET_LEAF_COUNT(child); ++k) {
+        const std::uint32_t slot = FACET_LEAF_FIRST(child) + k;
+        slots.insert(slot);
+        for (const auto& [node, at] : way)
+          for (std::size_t c = 0; c < 3; ++c)
+            escaped += !holds(nodes[node], at, corners[3 * slot + c]);
+      }
+      return;
+    }
+    for (std::uint32_t c = 0; c < 4; ++c) {
+      if (nodes[child].child[c] == FACET_NONE) {
+        CHECK(nodes[child].x[0][c] > nodes[child].x[1][c]);
+        continue;
+      }
+      auto further = way;
+      further.emplace_back(child, c);
+      down(nodes[child].child[c], further);
+    }
+  }
+};
+
+}  // namespace
+
+TEST_CASE("each triangle is in one leaf, every node holds what is below it, the stack suffices") {
+  for (std::uint32_t n : {1u, 2u, 4u, 5u, 6u, 17u, 1000u}) {
+    CAPTURE(n);
+    const scene s = test::one_mesh(test::random_soup(n, n));
+    const device_geometry g = geometry_of(s, tree_kind::levels);
+    const auto nodes = content(g.nodes);
+    const auto corners = content(g.corners);
+    walk w{nodes, corners};
+    w.down(content(g.world)[0].root, {});
+    CHECK(w.escaped == 0);
+    CHECK(w.slots.size() == n);
+    CHECK(std::set<std::uint32_t>(w.slots.begin(), w.slots.end()).size() == n);
+    CHECK(w.deepest <= g.depth);
+    CHECK(g.stack >= 3 * w.deepest);
+    CHECK(g.nodes_used == 2 * std::uint64_t(n) - 1);
+  }
+}
+
+TEST_CASE("triangles in leaf order are those of the mesh, each once, with its material") {
+  scene s = test::one_mesh(test::random_soup(777, 3));
+  s.materials.resize(5);
+  for (std::uint32_t t = 0; t < 777; ++t) s.meshes[0].materials.push_back(t % 5);
+  const device_geometry g = geometry_of(s, tree_kind::levels);
+  const auto corners = content(g.corners);
+  const auto infos = content(g.infos);
+  std::set<std::uint32_t> seen;
+  for (std::size_t slot = 0; slot < 777; ++slot) {
+    const std::uint32_t t = infos[slot].triangle;
+    seen.insert(t);
+    CHECK(infos[slot].material == t % 5);
+    const vec3f p = s.meshes[0].position(t, 1);
+    CHECK(corners[3 * slot + 1] == texel{p.x, p.y, p.z, 0});
+  }
+  CHECK(seen.size() == 777);
+}
+
+TEST_CASE("without a tree the order is the mesh's own") {
+  const device_geometry g = geometry_of(test::one_mesh(test::random_soup(20, 3)), tree_kind::none);
+  const auto infos = content(g.infos);
+  for (std::uint32_t t = 0; t < 20; ++t) CHECK(infos[t].triangle == t);
+  CHECK(g.nodes_used == 0);
+}
+
+TEST_CASE("several meshes and instances share the node array, the top's leaves name instances") {
+  const scene s = test::many_instances();
+  const device_geometry g = geometry_of(s, tree_kind::levels);
+  const auto instances = content(g.instances);
+  std::set<std::uint32_t> ids, roots;
+  for (const Instance& i : instances) ids.insert(i.id), roots.insert(i.root);
+  CHECK(ids.size() == s.instances.size());
+  CHECK(roots.size() == 2);
+  CHECK(g.nodes_used == (2 * s.meshes[0].triangle_count() - 1) +
+                            (2 * s.meshes[1].triangle_count() - 1) + (2 * s.instances.size() - 1));
+}
+
+TEST_CASE("images hold the geometry in their own memory") {
+  const scene s = test::one_mesh(test::random_soup(5000, 3));
+  const device_geometry g = geometry_of(s, tree_kind::levels, true);
+  REQUIRE(g.corner_image.has_value());
+  CHECK(g.corner_image->width() == 8192);
+  CHECK(g.corner_image->height() == 2);
+  CHECK(g.corners.size() == 1);
+}
