@@ -48,10 +48,13 @@ void wait_for(const command& c) {
   if (result != CL_SUCCESS && status_of(c.event) >= 0) throw failed_call("clWaitForEvents", result);
 }
 
+std::string failure_text(cl_int status) {
+  if (status == -1) return "the driver gives no reason (-1)";
+  return std::string(code_name(status)) + " (" + std::to_string(status) + ")";
+}
+
 exception failed_dependency(cl_int status) {
-  return {errc::event,
-          std::string("a command that this one depends on failed: ") + code_name(status) + " (" +
-              std::to_string(status) + ")",
+  return {errc::event, "a command that this one depends on failed: " + failure_text(status),
           status};
 }
 

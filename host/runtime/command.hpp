@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "runtime/access.hpp"
@@ -37,6 +38,8 @@ class hazards {
 
 /// The execution status: negative if the command failed.
 cl_int status_of(const cl::Event& e);
+/// A failed command's status in words. Drivers that know no reason give -1.
+std::string failure_text(cl_int status);
 /// Flushes the command's queue and waits for its end, failed or not.
 void wait_for(const command& c);
 /// errc::event: a command that this one depends on failed, and what it wrote is not there.

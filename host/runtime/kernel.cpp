@@ -74,8 +74,10 @@ std::vector<parameter> ask_parameters(const cl::Kernel& k) {
   return list;
 }
 
-kernel_limits ask_limits(const cl::Kernel& k, const cl::Device& d) {
+kernel_limits ask_limits(const cl::Kernel& k, const device& on) {
+  const cl::Device d(on.get(), true);
   kernel_limits l;
+  l.most_items = on.max_work_item_sizes();
   l.work_group_size = k.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(d);
   l.preferred_multiple = k.getWorkGroupInfo<CL_KERNEL_PREFERRED_WORK_GROUP_SIZE_MULTIPLE>(d);
   const auto required = k.getWorkGroupInfo<CL_KERNEL_COMPILE_WORK_GROUP_SIZE>(d);
@@ -106,7 +108,7 @@ std::shared_ptr<kernel_state> make_kernel(std::shared_ptr<const program_state> p
         state->kernel = cl::Kernel(program->program, name.c_str());
         state->parameters = ask_parameters(state->kernel);
         for (const device& d : program->context->devices)
-          state->limits[d.get()] = ask_limits(state->kernel, cl::Device(d.get(), true));
+          state->limits[d.get()] = ask_limits(state->kernel, d);
       },
       *state->what);
   state->program = std::move(program);

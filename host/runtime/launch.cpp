@@ -96,7 +96,7 @@ void check_shape(const kernel_state& k, const kernel_limits& l, const launch_sha
                  const device& d) {
   const string local = sizes_text(s.local, s.dimensions);
   std::size_t items = 1;
-  const auto most = d.max_work_item_sizes();
+  const auto& most = l.most_items;
   for (int i = 0; i < s.dimensions; ++i) {
     if (s.local[i] == 0) refuse(errc::nd_range, k, "a work-group of " + local + " is empty");
     if (s.local[i] > most[std::size_t(i)])

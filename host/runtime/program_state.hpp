@@ -1,6 +1,7 @@
 // Internal: what programs and kernels hold, asked of the driver once.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -32,7 +33,8 @@ struct parameter {
 /// A kernel's limits on one device, as compiled.
 struct kernel_limits {
   std::size_t work_group_size = 0, preferred_multiple = 1;
-  std::array<std::size_t, 3> required{};  ///< reqd_work_group_size, or zeros
+  std::array<std::size_t, 3> required{};    ///< reqd_work_group_size, or zeros
+  std::array<std::size_t, 3> most_items{};  ///< of a group along each dimension: the device's
   std::uint64_t private_bytes = 0, local_bytes = 0;
 };
 

@@ -46,10 +46,8 @@ void queue_state::harvest() {
     const cl_int status = status_of(w.event);
     if (status < 0)
       failures_.push_back(std::make_exception_ptr(
-          exception(errc_of(status),
-                    *w.what + " failed after it was submitted: " + code_name(status) + " (" +
-                        std::to_string(status) + ")",
-                    status)));
+          exception(status == -1 ? errc::runtime : errc_of(status),
+                    *w.what + " failed after it was submitted: " + failure_text(status), status)));
     return status <= CL_COMPLETE;
   });
 }

@@ -49,6 +49,17 @@ TEST_CASE("writing some elements keeps the others") {
   CHECK(test::contents(b) == expected);
 }
 
+TEST_CASE("commands wait until what the host wrote is back on the device") {
+  buffer<int> b(1000);
+  test::set(test::queue(), b, 3).wait_and_throw();
+  { const host_accessor w{b, write_only}; }
+  const std::vector<event> behind = test::add(test::queue(), b, 1).get_wait_list();
+  REQUIRE(behind.size() == 1);
+  cl_command_type type = 0;
+  clGetEventInfo(behind[0].get(), CL_EVENT_COMMAND_TYPE, sizeof type, &type, nullptr);
+  CHECK(type == CL_COMMAND_UNMAP_MEM_OBJECT);
+}
+
 TEST_CASE("a read-only one gives no way to write") {
   static_assert(std::is_same_v<host_accessor<int, access_mode::read>::value_type, const int>);
   static_assert(std::is_same_v<host_accessor<int, access_mode::write>::value_type, int>);
