@@ -12,6 +12,17 @@
 #include "image/temporary_folder.hpp"
 #include "scene/error.hpp"
 
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define FACET_LEAK_SANITIZER
+#endif
+#elif defined(__SANITIZE_ADDRESS__)
+#define FACET_LEAK_SANITIZER
+#endif
+#ifdef FACET_LEAK_SANITIZER
+#include <sanitizer/lsan_interface.h>
+#endif
+
 using namespace facet;
 using image::transfer;
 using test::temporary_folder;
@@ -41,6 +52,15 @@ std::string message_of(const std::filesystem::path& path, const picture& p) {
 bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
+
+/// libpng leaves OpenImageIO's callback by longjmp when a file ends early, over a string's
+/// destructor: that leak is theirs.
+struct leaks_allowed {
+#ifdef FACET_LEAK_SANITIZER
+  leaks_allowed() { __lsan_disable(); }
+  ~leaks_allowed() { __lsan_enable(); }
+#endif
+};
 
 }  // namespace
 
@@ -120,6 +140,7 @@ TEST_CASE("a picture cut short is an error") {
     const std::string whole = test::content_of(folder / name);
     for (const std::size_t kept : {whole.size() / 8, whole.size() / 2}) {
       test::put(folder / name, whole.substr(0, kept));
+      [[maybe_unused]] const leaks_allowed here;
       CHECK_THROWS_AS(image::read_picture(folder / name), scene_error);
     }
   }
