@@ -75,12 +75,13 @@ template <class T>
 struct candidate {
   const space<T>& world;
   const space<T>& object;
-  const box3<T>& world_box;
+  const placement<T>& place;
   std::uint32_t instance, triangle;
   corners<T> corner;
 
   triangle_test<T> test() const { return {object, corner}; }
-  interval<T> outer() const { return world.slab(world_box); }
+  /// The instance's interval in the world. In a plain one the triangle's own lies within it.
+  interval<T> outer() const { return place.is_plain ? interval<T>{} : world.slab(place.world_box); }
 };
 
 extern template class geometry<float>;

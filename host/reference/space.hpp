@@ -2,8 +2,9 @@
 // triangle test and the slab test need of it, computed once.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <utility>
 
 #include "reference/ray.hpp"
 
@@ -34,6 +35,16 @@ struct interval {
   }
 };
 
+/// Components by an axis known at run time alone, without a branch: rays in all directions would
+/// mispredict each.
+template <class T>
+struct axes {
+  std::array<T, 3> value;
+
+  explicit axes(const vec3<T>& v) : value{v.x, v.y, v.z} {}
+  T operator[](int axis) const { return value[std::size_t(axis)]; }
+};
+
 template <class T>
 struct space {
   vec3<T> origin;
@@ -48,14 +59,17 @@ struct space {
   /// `extent`: the largest |coordinate| by axis of all boxes that the ray will be held against.
   space(const vec3<T>& o, const vec3<T>& d, const vec3<T>& extent) : origin(o) {
     const vec3<T> a = abs(d);
-    kz = a.x >= a.y ? (a.x >= a.z ? 0 : 2) : (a.y >= a.z ? 1 : 2);
-    kx = (kz + 1) % 3, ky = (kx + 1) % 3;
-    if (d[kz] < 0) std::swap(kx, ky);
-    Sx = d[kx] / d[kz], Sy = d[ky] / d[kz], Sz = 1 / d[kz];
+    kz = a.y > a.x ? 1 : 0;
+    kz = a.z > std::max(a.x, a.y) ? 2 : kz;
+    const axes<T> direction(d);
+    const bool down = direction[kz] < 0;
+    const int next = kz == 2 ? 0 : kz + 1, last = kz == 0 ? 2 : kz - 1;
+    kx = down ? last : next, ky = down ? next : last;
+    Sx = direction[kx] / direction[kz], Sy = direction[ky] / direction[kz], Sz = 1 / direction[kz];
 
     reach = abs(o) + extent;
     pad = 16 * unit_roundoff<T> * std::max(std::max(reach.x, reach.y), reach.z);
-    const T least = a[kz] * T(0x1p-60);
+    const T least = std::abs(direction[kz]) * T(0x1p-60);
     for (int i = 0; i < 3; ++i) {
       inverse[i] = 1 / (a[i] < least ? std::copysign(least, d[i]) : d[i]);
       const T p = pad * std::abs(inverse[i]);
@@ -71,9 +85,10 @@ struct space {
   interval<T> slab(const box3<T>& b) const {
     interval<T> r;
     for (int i = 0; i < 3; ++i) {
-      const bool up = inverse[i] > 0;
-      const T n = std::fma(up ? b.lo[i] : b.hi[i], inverse[i], near_offset[i]);
-      const T f = std::fma(up ? b.hi[i] : b.lo[i], inverse[i], far_offset[i]);
+      const std::array<T, 2> plane{b.lo[i], b.hi[i]};
+      const std::size_t near = inverse[i] > 0 ? 0 : 1;
+      const T n = std::fma(plane[near], inverse[i], near_offset[i]);
+      const T f = std::fma(plane[1 - near], inverse[i], far_offset[i]);
       r = r.meet({n, f});
     }
     return r;

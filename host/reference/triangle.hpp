@@ -34,7 +34,7 @@ struct sheared {
   T x, y, z;
 
   sheared(const space<T>& s, const vec3<T>& corner) {
-    const vec3<T> a = corner - s.origin;
+    const axes<T> a(corner - s.origin);
     x = a[s.kx] - s.Sx * a[s.kz];
     y = a[s.ky] - s.Sy * a[s.kz];
     z = s.Sz * a[s.kz];

@@ -50,7 +50,7 @@ bool geometry<T>::visit(const ray<T>& r, const T& limit, road by, Visit&& v) con
     const space<T>& object = p.is_plain ? world : moved;
     if (by == road::brute_force) {
       for (std::uint32_t i = 0; i < scene_.meshes[mesh_id].triangle_count(); ++i) {
-        const candidate<T> c{world, object, p.world_box, instance, i, corners_of(instance, i)};
+        const candidate<T> c{world, object, p, instance, i, corners_of(instance, i)};
         if (has_area(c.corner) && v(c)) return true;
       }
       return false;
@@ -59,7 +59,7 @@ bool geometry<T>::visit(const ray<T>& r, const T& limit, road by, Visit&& v) con
     const auto decide = [&](const triangle_block& b, unsigned mask) __attribute__((noinline)) {
       for (; mask != 0; mask &= mask - 1) {
         const auto k = std::size_t(std::countr_zero(mask));
-        candidate<T> c{world, object, p.world_box, instance, b.triangle[k], {}};
+        candidate<T> c{world, object, p, instance, b.triangle[k], {}};
         for (std::size_t i = 0; i < 3; ++i)
           c.corner[i] = {T(b.corner[i][0][k]), T(b.corner[i][1][k]), T(b.corner[i][2][k])};
         if (v(c)) return true;
