@@ -14,5 +14,6 @@ embree_peer::embree_peer(const mesh&, unsigned) {
 embree_peer::~embree_peer() = default;
 double embree_peer::build_seconds() const { return 0; }
 void embree_peer::closest(const std::vector<ray>&, std::vector<hit>&) const {}
+void embree_peer::trace(const std::vector<ray>&, bool, unsigned, std::vector<hit>&) const {}
 
 }  // namespace facet::bench
