@@ -14,9 +14,11 @@ access_mode both(access_mode a, access_mode b) { return a == b ? a : access_mode
 /// Locks every memory of the group, by address, so that two groups cannot block each other.
 std::vector<std::unique_lock<std::mutex>> lock_all(const std::vector<requirement>& requirements) {
   std::vector<memory*> objects;
+  objects.reserve(requirements.size());
   for (const requirement& r : requirements) objects.push_back(r.object.get());
   std::sort(objects.begin(), objects.end(), std::less<>());
   std::vector<std::unique_lock<std::mutex>> locks;
+  locks.reserve(objects.size());
   for (memory* m : objects) locks.emplace_back(m->mutex);
   return locks;
 }

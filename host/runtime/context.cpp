@@ -20,6 +20,7 @@ context::context(const std::vector<device>& devices)
   if (devices.empty()) throw exception(errc::invalid, "a context needs at least one device");
   state_->devices = devices;
   std::vector<cl::Device> list;
+  list.reserve(devices.size());
   for (const device& d : devices) list.emplace_back(d.get(), true);
   state_->context = detail::call([&] { return cl::Context(list); });
 }

@@ -152,6 +152,7 @@ void handler::fill_buffer(const memory_ptr& to, const void* value, std::size_t b
     // The bindings take the pattern's size from its type.
     const std::vector<cl_event> list = [&] {
       std::vector<cl_event> handles;
+      handles.reserve(waits.size());
       for (const cl::Event& e : waits) handles.push_back(e());
       return handles;
     }();

@@ -1,6 +1,7 @@
 // OpenCL's handles by name alone, so that no public header needs <CL/cl.h>.
 #pragma once
 
+// NOLINTBEGIN(bugprone-reserved-identifier): the names are OpenCL's.
 struct _cl_platform_id;
 struct _cl_device_id;
 struct _cl_context;
@@ -9,6 +10,7 @@ struct _cl_mem;
 struct _cl_program;
 struct _cl_kernel;
 struct _cl_event;
+// NOLINTEND(bugprone-reserved-identifier)
 
 /// The types of <CL/cl.h>, for callers that mix this runtime with calls of their own. A handle
 /// from get() is borrowed: retain it to keep it longer than the object that gave it.
