@@ -42,6 +42,10 @@ static inline Slabs slabs_of(float3 o, float3 d, float3 reach, float largest) {
   const float3 c = -(o * s.inverse);
   s.near_offset = c - p;
   s.far_offset = c + p;
+  // An axis whose offset overflows tells nothing of where the ray is.
+  if (!(fabs(c.x) < INFINITY)) s.near_offset.x = -INFINITY, s.far_offset.x = INFINITY;
+  if (!(fabs(c.y) < INFINITY)) s.near_offset.y = -INFINITY, s.far_offset.y = INFINITY;
+  if (!(fabs(c.z) < INFINITY)) s.near_offset.z = -INFINITY, s.far_offset.z = INFINITY;
   return s;
 }
 

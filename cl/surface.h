@@ -13,10 +13,13 @@ typedef struct {
   uint material;
 } Surface;
 
-// A normal, or `instead` where it has no direction.
+// A normal of length 1, or `instead` where it has no direction. It is scaled by its largest
+// component first: the square of a small triangle's normal would underflow.
 static inline float3 unit_or(float3 n, float3 instead) {
-  const float l = length3(n);
-  return l > 0.0f && l < INFINITY ? n / l : instead;
+  const float3 a = fabs(n);
+  const float largest = larger(a.x, larger(a.y, a.z));
+  const bool is_finite = a.x < INFINITY && a.y < INFINITY && a.z < INFINITY;
+  return is_finite && largest > 0.0f ? normalize3(n / largest) : instead;
 }
 
 // The bound on the point's distance from its triangle, by axis in the world, as the next ray's

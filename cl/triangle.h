@@ -85,6 +85,7 @@ static inline bool hit_triangle(const Space* s, float3 p0, float3 p1, float3 p2,
   const float det = (u + v) + w;
   if (det == 0.0f) return false;
   float t = ((u * a.z + v * b.z) + w * c.z) / det;
+  if (!(fabs(t) < INFINITY)) t = ((u / det) * a.z + (v / det) * b.z) + (w / det) * c.z;
 
   const Interval own =
       box_interval(s->slabs, smaller3(smaller3(p0, p1), p2), larger3(larger3(p0, p1), p2));

@@ -58,7 +58,7 @@ TEST_CASE("codes interleave 21 bits an axis of the place in the smallest cube") 
   }
   CHECK(wrong == 0);
   CHECK(found[0] == 0);
-  CHECK(found[1] >> 62 == 1);
+  CHECK((found[1] >> 62) == 1);
 }
 
 TEST_CASE("one box, and boxes with one centre, have the code 0") {
