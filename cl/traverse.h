@@ -31,7 +31,7 @@ static inline Scene scene_of(__global const World* w, __global const Node* nodes
   return s;
 }
 
-// What a traversal looks for; always a literal, so that the compiler drops the other two.
+// What a traversal looks for; a literal wherever one starts, so that a compiler can drop the rest.
 #define FACET_CLOSEST 0u   // the canonical hit
 #define FACET_ANY 1u       // whether there is one
 #define FACET_CROSSINGS 2u // the optical depth of what is transparent, until something is not
