@@ -9,6 +9,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   facet::bench::add_reference_row(app);
   facet::bench::add_trace_row(app);
+  facet::bench::add_pictures_row(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
