@@ -56,8 +56,8 @@ Light pack_light(const light& l) {
   return p;
 }
 
-/// False where the corners lie on one line: exact, as differences and products of floats fit a double
-/// unless their sizes differ by more than 2^28.
+/// False where the corners lie on one line: exact, as differences and products of floats fit a
+/// double unless their sizes differ by more than 2^28.
 bool has_area(const mesh& m, std::size_t t) {
   const vec3d a(m.position(t, 0)), b(m.position(t, 1)), c(m.position(t, 2));
   return cross(b - a, c - a) != vec3d();

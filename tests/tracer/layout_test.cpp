@@ -16,14 +16,15 @@ using namespace facet::tracer;
 #define FIELDS(SIZE, FIELD)                                                                        \
   SIZE(Box)                                                                                        \
   FIELD(Box, hi)                                                                                   \
-  FIELD(Box, spare1) SIZE(TreeNode) FIELD(TreeNode, left) FIELD(TreeNode, right) FIELD(            \
-      TreeNode, height) SIZE(Node) FIELD(Node, y) FIELD(Node, z) FIELD(Node, child)                \
-      SIZE(TriangleInfo) FIELD(TriangleInfo, material) SIZE(Instance) FIELD(                       \
-          Instance, world_from_object) FIELD(Instance, lo) FIELD(Instance, id) FIELD(Instance, hi) \
-          FIELD(Instance, root) FIELD(Instance, reach) FIELD(Instance, material) FIELD(            \
-              Instance, first_triangle) FIELD(Instance, triangle_count) SIZE(Material)             \
-              FIELD(Material, Ns) FIELD(Material, Ka) FIELD(Material, Ni) FIELD(Material, Kd)      \
-                  FIELD(Material, transparent) FIELD(Material, Ks) FIELD(Material, specular)       \
+  FIELD(Box, spare1)                                                                               \
+  SIZE(TreeNode) FIELD(TreeNode, left) FIELD(TreeNode, right) FIELD(TreeNode, height) SIZE(Node)   \
+      FIELD(Node, y) FIELD(Node, z) FIELD(Node, child) SIZE(TriangleInfo) FIELD(                   \
+          TriangleInfo, material) SIZE(Instance) FIELD(Instance, world_from_object)                \
+          FIELD(Instance, lo) FIELD(Instance, id) FIELD(Instance, hi) FIELD(Instance, root) FIELD( \
+              Instance, reach) FIELD(Instance, material) FIELD(Instance, first_triangle)           \
+              FIELD(Instance, triangle_count) SIZE(Material) FIELD(Material, Ns)                   \
+                  FIELD(Material, Ka) FIELD(Material, Ni) FIELD(Material, Kd) FIELD(               \
+                      Material, transparent) FIELD(Material, Ks) FIELD(Material, specular)         \
                       FIELD(Material, Kr) FIELD(Material, Kt) FIELD(Material, minus_ln_Kt) FIELD(  \
                           Material, sigma) SIZE(Light) FIELD(Light, kind) FIELD(Light, colour)     \
                           FIELD(Light, falloff) SIZE(View) FIELD(View, width) FIELD(View, corner)  \
