@@ -36,7 +36,7 @@ program::program(const context& c, const source_tree& sources, const std::string
   state->program = call([&] { return cl::Program(c.state()->context, text); });
   const cl_int result =
       clBuildProgram(state->program(), 0, nullptr, state->options.c_str(), nullptr, nullptr);
-  state->log = build_log(state->program, c.get_devices());
+  state->log = with_places(build_log(state->program, c.get_devices()), text);
   if (result != CL_SUCCESS) {
     const exception failed = failed_call(
         "clBuildProgram", result,

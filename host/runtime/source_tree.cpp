@@ -1,9 +1,11 @@
 #include "runtime/source_tree.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <fstream>
 #include <iterator>
 #include <set>
+#include <sstream>
 #include <vector>
 
 #include "runtime/error.hpp"
@@ -170,6 +172,36 @@ std::string expand(const source_tree& sources, std::string_view main_file) {
   expander e(sources);
   e.add(main->first, main->second, false);
   return e.take();
+}
+
+std::string with_places(const std::string& log, std::string_view expanded) {
+  // places[n - 1]: what the n-th line of the text is, after the #line directives before it.
+  std::vector<std::string> places;
+  std::string file = "<kernel>";
+  std::size_t number = 1;
+  std::istringstream lines{std::string(expanded)};
+  for (std::string line; std::getline(lines, line);) {
+    places.push_back(file + ":" + std::to_string(number++));
+    std::istringstream words(line);
+    std::string directive, name;
+    std::size_t next = 0;
+    if (words >> directive >> next >> name && directive == "#line" && name.size() > 2) {
+      number = next;
+      file = name.substr(1, name.size() - 2);
+    }
+  }
+  constexpr std::string_view mark = "<kernel>:";
+  std::string text;
+  std::size_t at = 0;
+  for (std::size_t found; (found = log.find(mark, at)) != std::string::npos;) {
+    text += log.substr(at, found - at);
+    at = found + mark.size();
+    std::size_t n = 0;
+    while (at < log.size() && std::isdigit(static_cast<unsigned char>(log[at])))
+      n = 10 * n + std::size_t(log[at++] - '0');
+    text += n >= 1 && n <= places.size() ? places[n - 1] : std::string(mark) + std::to_string(n);
+  }
+  return text + log.substr(at);
 }
 
 }  // namespace facet::runtime

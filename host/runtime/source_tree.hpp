@@ -26,4 +26,8 @@ source_tree read_folder(const std::filesystem::path& folder);
 /// errc::invalid for an unknown name, with the file and line that name it.
 std::string expand(const source_tree& sources, std::string_view main_file);
 
+/// A compiler's log with "<kernel>:N", by which NVIDIA's names line N of the expanded text whatever
+/// #line says, replaced by the file and the line in it.
+std::string with_places(const std::string& log, std::string_view expanded);
+
 }  // namespace facet::runtime

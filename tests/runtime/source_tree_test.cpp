@@ -127,3 +127,19 @@ TEST_CASE("a folder is read with its subfolders, and only sources of it") {
   CHECK(t.files == source_tree{{{"a.cl", "a_text\n"}, {"lib/b.h", "b_text"}}}.files);
   CHECK_THROWS_WITH_AS(read_folder(folder), doctest::Contains(name.c_str()), exception);
 }
+
+TEST_CASE("a log that counts lines of the whole text is told by file and line") {
+  const source_tree t{{{"main.cl", "one\n#include \"a.h\"\nthree\n"}, {"a.h", "first\nsecond\n"}}};
+  const std::string text = expand(t, "main.cl");
+  // Find each word's line in the whole, as a compiler would count it.
+  const auto line_of = [&](const std::string& word) {
+    const std::size_t at = text.find("\n" + word + "\n");
+    REQUIRE(at != text.npos);
+    return std::to_string(times(text.substr(0, at + 1), "\n") + 1);
+  };
+  CHECK(with_places("<kernel>:" + line_of("second") + ":5: error", text) == "a.h:2:5: error");
+  CHECK(with_places("x <kernel>:" + line_of("three") + " y <kernel>:" + line_of("one"), text) ==
+        "x main.cl:3 y main.cl:1");
+  CHECK(with_places("<kernel>:99999:1", text) == "<kernel>:99999:1");
+  CHECK(with_places("main.cl:3: error", text) == "main.cl:3: error");
+}
