@@ -72,7 +72,7 @@ TEST_CASE("transparent materials carry -ln Kt and sigma; opaque ones carry 0") {
   CHECK(p.materials[0].transparent == 0);
   CHECK(p.materials[0].sigma[0] == 0);
   s.materials[1].Kt = {1, 0, 0.5f};
-  const Material& red = pack(s, false).materials[1];
+  const Material red = pack(s, false).materials[1];
   CHECK(red.minus_ln_Kt[0] == 0);
   CHECK(red.minus_ln_Kt[1] == float(-std::log(1e-30)));
 }
