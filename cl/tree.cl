@@ -8,20 +8,33 @@ static inline float half_area(__global const TreeNode* n) {
   return (e.x * e.y + e.y * e.z) + e.z * e.x;
 }
 
+// Whether a subtree becomes a leaf: at most leaf_size primitives (they are consecutive), where testing all
+// of them costs no more than visiting its children, by the surface area heuristic (MacDonald and
+// Booth 1990). A visit counts as much as NODE_COST tests.
+#define NODE_COST 1.0f
+static inline bool is_leaf(__global const TreeNode* tree, uint node, uint leaf_size) {
+  __global const TreeNode* n = &tree[node];
+  const uint size = size_of(n);
+  if (size == 1u || size > leaf_size) return size == 1u;
+  __global const TreeNode* l = &tree[n->left];
+  __global const TreeNode* r = &tree[n->right];
+  return half_area(n) * ((float)size - NODE_COST) <=
+         half_area(l) * (float)size_of(l) + half_area(r) * (float)size_of(r);
+}
+
 // Node count + i of the binary tree stands at node_offset + i, as if a ray could come there: its two
 // children are opened, the larger first, until they are four or all leaves. Only the nodes that the
-// root leads to are ever read. Subtrees of at most leaf_size primitives become leaves: they cover
-// consecutive primitives. Nodes inside leaves are not written.
+// root leads to are ever read.
 __kernel void make_nodes(__global const TreeNode* tree, __global Node* nodes, uint count,
                          uint leaf_size, uint node_offset, uint slot_offset) {
   const uint i = (uint)get_global_id(0);
-  if (i + 1u >= count || size_of(&tree[count + i]) <= leaf_size) return;
+  if (i + 1u >= count) return;
   uint child[4] = {tree[count + i].left, tree[count + i].right, FACET_NONE, FACET_NONE};
   for (uint children = 2u; children < 4u; ++children) {
     float largest = -1.0f;
     uint opened = 4u;
     for (uint c = 0u; c < children; ++c)
-      if (size_of(&tree[child[c]]) > leaf_size && half_area(&tree[child[c]]) > largest) {
+      if (!is_leaf(tree, child[c], leaf_size) && half_area(&tree[child[c]]) > largest) {
         largest = half_area(&tree[child[c]]);
         opened = c;
       }
@@ -36,10 +49,9 @@ __kernel void make_nodes(__global const TreeNode* tree, __global Node* nodes, ui
     out.x[0][c] = is_there ? n->lo[0] : INFINITY, out.x[1][c] = is_there ? n->hi[0] : -INFINITY;
     out.y[0][c] = is_there ? n->lo[1] : INFINITY, out.y[1][c] = is_there ? n->hi[1] : -INFINITY;
     out.z[0][c] = is_there ? n->lo[2] : INFINITY, out.z[1][c] = is_there ? n->hi[2] : -INFINITY;
-    const uint size = size_of(n);
-    out.child[c] = !is_there          ? FACET_NONE
-                   : size <= leaf_size ? FACET_LEAF(slot_offset + n->first, size)
-                                       : node_offset + (child[c] - count);
+    out.child[c] = !is_there                            ? FACET_NONE
+                   : is_leaf(tree, child[c], leaf_size) ? FACET_LEAF(slot_offset + n->first, size_of(n))
+                                                        : node_offset + (child[c] - count);
     out.spare[c] = 0u;
   }
   nodes[node_offset + i] = out;
