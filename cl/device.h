@@ -4,8 +4,7 @@
 
 // The larger, or the smaller, by component, where `bound` is never NaN; a NaN in `a` is dropped. The
 // sign of a zero may be either: use only where it cannot reach a result (culling nodes). GPUs
-// have one instruction for it; PoCL turns fmax into calls that cost six times the comparison
-// (measured on shadow rays).
+// have one instruction for it; PoCL makes calls of fmax and fmin, and of a comparison one instruction.
 #ifdef FACET_HARDWARE_MINMAX
 static inline float4 cull_max(float4 a, float4 bound) { return fmax(a, bound); }
 static inline float4 cull_min(float4 a, float4 bound) { return fmin(a, bound); }

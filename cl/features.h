@@ -8,7 +8,7 @@
 // and, chosen rather than derived:
 //   FACET_GEOMETRY_IMAGE   positions and normals are read from image2d, not from buffers
 //   FACET_TREE_NONE        brute force: every triangle is tested
-//   FACET_STACK=n          entries of the traversal stack: at least the trees' depth (tree.cpp)
+//   FACET_STACK=n          entries of the traversal stack: three for each level (traverse.h)
 //   FACET_RAY_STACK=n      entries of the stack of pending rays: at least max_depth
 //   FACET_HARDWARE_MINMAX  see device.h
 #ifndef FACET_FEATURES_H

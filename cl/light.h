@@ -4,7 +4,7 @@
 
 #include "surface.h"
 
-// T of design §3: the product of Kt over the surfaces crossed and of A^(s/D) over the way inside;
+// T, what reaches a point: the product of Kt over the surfaces crossed and of A^(s/D) over the way inside;
 // 0 as soon as something opaque stands between. `start` is on the surface's outer side, `medium`
 // what surrounds it there (FACET_NONE: nothing), `distance` INFINITY for a directional light.
 //

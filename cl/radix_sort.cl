@@ -1,7 +1,6 @@
 // One pass of a stable LSD radix sort of keys with 32-bit values, by the digit of 8 bits at
 // `shift`: count, scan, scatter. A work-item takes a tile of consecutive keys and walks it in
-// order, which keeps equal digits in order without any exchange between work-items; on a CPU
-// one large tile for each work-item measured 3 to 9 times faster than shared counters.
+// order, which keeps equal digits in order without any exchange between work-items.
 //
 // KEY is uint or ulong.
 #ifndef KEY

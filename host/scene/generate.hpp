@@ -1,4 +1,4 @@
-// Meshes from a few words, so that the size of a scene is a parameter (design §4).
+// Meshes from a few words, so that the size of a scene is a parameter.
 #pragma once
 
 #include <map>

@@ -1,4 +1,16 @@
-// What a surface does with light; the names are those of Wavefront MTL (design §3).
+// What a surface does with light; the names are those of Wavefront MTL.
+//
+// A ray that meets a surface with the unit normal N, which faces the ray, brings
+//
+//   I = Ke + Ka Ia
+//     + sum over the lights: L f(d) T (Kd max(0, N.l) + Ks max(0, R.v)^Ns)
+//     + Kr I(reflected ray) + Kt I(refracted ray)        under total internal reflection Kt joins
+//     Kr
+//
+// and is dimmed by A^(s/D) for a way s inside a medium. l leads to the light and counts only if
+// N.l > 0, R is l mirrored at N, v leads back along the ray, f is the light's fall-off (scene.hpp)
+// and T what passes from the light: the product of Kt over the surfaces on the straight way and
+// of A^(s/D) inside, 0 behind anything opaque.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// The scene model: what a picture is made of (design §3 and §4). It knows nothing of OpenCL.
+// The scene model: what a picture is made of. It knows nothing of OpenCL.
 #pragma once
 
 #include <cstddef>

@@ -8,7 +8,7 @@
 namespace facet::tracer {
 namespace {
 
-/// What a launch should take: no watchdog fires, progress moves, Ctrl-C is answered (design §10).
+/// What a launch should take: no watchdog fires, progress moves, Ctrl-C is answered.
 constexpr double launch_ms = 50;
 
 struct tile {
@@ -82,8 +82,9 @@ picture device_scene::render(std::uint32_t width, std::uint32_t height, std::uin
   check_size(width, height, max_depth);
   state& s = *state_;
   const View view = pack_view(s.model, width, height, max_depth);
-  const std::uint32_t w = s.chosen.group_width ? s.chosen.group_width : s.tuned.tile_width;
-  const std::uint32_t h = s.chosen.group_height ? s.chosen.group_height : s.tuned.tile_height;
+  const std::uint32_t w = s.chosen.group_width ? s.chosen.group_width : s.tuned.render_group_width;
+  const std::uint32_t h =
+      s.chosen.group_height ? s.chosen.group_height : s.tuned.render_group_height;
   runtime::kernel kernel = s.render_kernel(max_depth);
 
   const auto start = std::chrono::steady_clock::now();

@@ -9,14 +9,15 @@
 namespace facet::tracer {
 
 struct tuning {
-  std::uint32_t group = 64;                       ///< work-items a group of one-dimensional kernels
-  std::uint32_t tile_width = 8, tile_height = 8;  ///< default work-group of the render kernel
-  std::uint32_t leaf_size = 4;                    ///< triangles a leaf holds at most, 1 to 16
-  std::uint32_t sort_tiles = 64;                  ///< tiles a radix pass is cut into, at most
-  std::uint32_t sort_tile_least = 4096;           ///< keys a tile holds at least
-  bool image_geometry = false;                    ///< what --geometry auto means
-  bool hardware_minmax = false;                   ///< cl/device.h
-  bool correctly_rounded = false;  ///< the device can be asked for exact divide and sqrt
+  std::uint32_t group = 64;  ///< work-items a group of one-dimensional kernels
+  std::uint32_t render_group_width = 8,
+                render_group_height = 8;  ///< the render kernel's work-group
+  std::uint32_t leaf_size = 4;            ///< triangles a leaf holds at most, 1 to 16
+  std::uint32_t sort_tiles = 64;          ///< tiles a radix pass is cut into, at most
+  std::uint32_t sort_tile_least = 4096;   ///< keys a tile holds at least
+  bool image_geometry = false;            ///< what --geometry auto means
+  bool hardware_minmax = false;           ///< cl/device.h
+  bool correctly_rounded = false;         ///< the device can be asked for exact divide and sqrt
 
   /// Options for the compiler, each with a space before it.
   std::string flags() const;
