@@ -13,31 +13,27 @@ using namespace facet::tracer;
 
 // Each field of the shared structures by name, once for both languages: the text below is compiled
 // here and, as a string, on the device.
-#define FIELDS(SIZE, FIELD)                                                                       \
-  SIZE(Box)                                                                                       \
-  FIELD(Box, hi)                                                                                  \
-  FIELD(Box, spare1)                                                                              \
-  SIZE(TreeNode)                                                                                  \
-  FIELD(TreeNode, left) FIELD(TreeNode, right) FIELD(TreeNode, height) SIZE(Node) FIELD(          \
-      Node, y) FIELD(Node, z) FIELD(Node, child) SIZE(TriangleInfo) FIELD(TriangleInfo, material) \
-      SIZE(Instance) FIELD(Instance, world_from_object) FIELD(Instance, lo) FIELD(Instance, id)   \
-          FIELD(Instance, hi) FIELD(Instance, root) FIELD(Instance, reach) FIELD(                 \
-              Instance, material) FIELD(Instance, first_triangle) FIELD(Instance, triangle_count) \
-              SIZE(Material) FIELD(Material, Ns) FIELD(Material, Ka) FIELD(Material, Ni)          \
-                  FIELD(Material, Kd) FIELD(Material, transparent) FIELD(Material, Ks)            \
-                      FIELD(Material, specular) FIELD(Material, Kr) FIELD(Material, Kt)           \
-                          FIELD(Material, minus_ln_Kt) FIELD(Material, sigma) SIZE(Light) FIELD(  \
-                              Light, kind) FIELD(Light, colour) FIELD(Light, falloff) SIZE(View)  \
-                              FIELD(View, width) FIELD(View, corner) FIELD(View, height)          \
-                                  FIELD(View, dx) FIELD(View, max_depth) FIELD(View, dy)          \
-                                      FIELD(View, samples) FIELD(View, background)                \
-                                          FIELD(View, background_alpha) FIELD(View, ambient)      \
-                                              FIELD(View, light_count) SIZE(World)                \
-                                                  FIELD(World, root) FIELD(World, instance_count) \
-                                                      FIELD(World, triangle_count) SIZE(Ray)      \
-                                                          FIELD(Ray, tmin) FIELD(Ray, direction)  \
-                                                              FIELD(Ray, tmax) SIZE(Hit)          \
-                                                                  FIELD(Hit, triangle)
+// clang-format off
+#define FIELDS(SIZE, FIELD) \
+  SIZE(Box) FIELD(Box, hi) FIELD(Box, spare1) \
+  SIZE(TreeNode) FIELD(TreeNode, left) FIELD(TreeNode, right) FIELD(TreeNode, height) \
+  SIZE(Node) FIELD(Node, y) FIELD(Node, z) FIELD(Node, child) \
+  SIZE(TriangleInfo) FIELD(TriangleInfo, material) \
+  SIZE(Instance) FIELD(Instance, world_from_object) FIELD(Instance, lo) FIELD(Instance, id) \
+    FIELD(Instance, hi) FIELD(Instance, root) FIELD(Instance, reach) FIELD(Instance, material) \
+    FIELD(Instance, first_triangle) FIELD(Instance, triangle_count) \
+  SIZE(Material) FIELD(Material, Ns) FIELD(Material, Ka) FIELD(Material, Ni) \
+    FIELD(Material, Kd) FIELD(Material, transparent) FIELD(Material, Ks) \
+    FIELD(Material, specular) FIELD(Material, Kr) FIELD(Material, Kt) \
+    FIELD(Material, minus_ln_Kt) FIELD(Material, sigma) \
+  SIZE(Light) FIELD(Light, kind) FIELD(Light, colour) FIELD(Light, falloff) \
+  SIZE(View) FIELD(View, width) FIELD(View, corner) FIELD(View, height) FIELD(View, dx) \
+    FIELD(View, max_depth) FIELD(View, dy) FIELD(View, samples) FIELD(View, background) \
+    FIELD(View, background_alpha) FIELD(View, ambient) FIELD(View, light_count) \
+  SIZE(World) FIELD(World, root) FIELD(World, instance_count) FIELD(World, triangle_count) \
+  SIZE(Ray) FIELD(Ray, tmin) FIELD(Ray, direction) FIELD(Ray, tmax) \
+  SIZE(Hit) FIELD(Hit, triangle)
+// clang-format on
 
 #define TEXT(...) #__VA_ARGS__
 #define HOST_SIZE(type) std::uint32_t(sizeof(type)),
