@@ -26,7 +26,7 @@ std::uint64_t peak_bytes(std::uint64_t triangles, std::uint64_t largest_mesh, bo
   const std::uint64_t kept = triangles * (sizeof(Node) + sizeof(TriangleInfo) + corners + normals);
   const std::uint64_t uploaded = triangles * (corners + normals + 4);
   // Boxes, codes and order with their sorting copies, tree nodes, subtree ends, level lists.
-  const std::uint64_t scratch = largest_mesh * (32 + 2 * 12 + 2 * sizeof(TreeNode) + 8 + 4 * 4);
+  const std::uint64_t scratch = largest_mesh * (sizeof(Box) + 2 * sizeof(TreeNode) + 48);
   return kept + uploaded + scratch + (in_images ? triangles * (corners + normals) : 0);
 }
 
@@ -226,6 +226,7 @@ device_geometry build_geometry(runtime::queue& q, const runtime::source_tree& ke
     g.depth = mesh_depth;
   } else if (kind != tree_kind::none && !placed.empty()) {
     std::vector<Box> boxes;
+    boxes.reserve(placed.size());
     for (const Instance& i : placed) boxes.push_back(box_of(i));
     binary_tree top = build.over_boxes(boxes);
     packed.world.root = build.emit(top, g.nodes, 1, packed.world.triangle_count, 0);
