@@ -1,20 +1,13 @@
-// Times of repeated runs, and what is said of them.
+// What every row needs of the machine: the clock, the CPU, a file.
 #pragma once
 
 #include <functional>
 #include <string>
-#include <vector>
 
 namespace facet::bench {
 
 /// Seconds that one call takes, by the steady clock.
 double seconds(const std::function<void()>& work);
-
-struct spread {
-  double median, least, most;
-};
-/// Of at least one value.
-spread spread_of(std::vector<double> values);
 
 /// The CPU's model from the system, or "unknown".
 std::string cpu_name();

@@ -9,7 +9,7 @@
 #include "bench/measure.hpp"
 #include "bench/rows.hpp"
 #include "reference/tracer.hpp"
-#include "scene/scene.hpp"
+#include "study/statistics.hpp"
 
 namespace facet::bench {
 namespace {
@@ -20,16 +20,8 @@ struct settings {
   std::string json;
 };
 
-scene scene_of(mesh m) {
-  scene s;
-  s.materials.emplace_back();
-  s.meshes.push_back(std::move(m));
-  s.instances.emplace_back();
-  return s;
-}
-
 nlohmann::json figures(const std::vector<double>& times, std::size_t rays) {
-  const spread s = spread_of(times);
+  const study::summary s = study::summarize(times);
   const auto rate = [&](double t) { return double(rays) / t * 1e-6; };
   return {{"mrays_per_s", rate(s.median)},
           {"mrays_per_s_least", rate(s.most)},
@@ -59,7 +51,7 @@ nlohmann::json compare(const std::string& name, const char* kind, const std::vec
   if (peer) {
     std::size_t differ = 0;
     for (std::size_t k = 0; k < rays.size(); ++k) differ += bool(hits[k]) != bool(peer_hits[k]);
-    const spread ratio = spread_of(ratios);
+    const study::summary ratio = study::summarize(ratios);
     row["embree"] = figures(peer_times, rays.size());
     row["ratio"] = {{"median", ratio.median}, {"least", ratio.least}, {"most", ratio.most}};
     row["hit_or_miss_differs"] = differ;

@@ -9,6 +9,7 @@
 #include "bench/measure.hpp"
 #include "bench/rows.hpp"
 #include "runtime/runtime.hpp"
+#include "study/statistics.hpp"
 #include "tracer/tracer.hpp"
 
 namespace facet::bench {
@@ -20,14 +21,6 @@ struct settings {
   int repeat = 5;
   unsigned threads = std::thread::hardware_concurrency();
 };
-
-scene scene_of(mesh m) {
-  scene s;
-  s.materials.emplace_back();
-  s.meshes.push_back(std::move(m));
-  s.instances.emplace_back();
-  return s;
-}
 
 std::vector<tracer::ray> packed(const std::vector<ray>& rays) {
   std::vector<tracer::ray> to;
@@ -43,7 +36,7 @@ std::vector<tracer::ray> packed(const std::vector<ray>& rays) {
 nlohmann::json rates(const std::vector<double>& seconds, std::size_t rays) {
   std::vector<double> rate;
   for (double s : seconds) rate.push_back(double(rays) / s * 1e-6);
-  const spread r = spread_of(rate);
+  const study::summary r = study::summarize(rate);
   return {{"mrays_per_s", r.median},
           {"mrays_per_s_least", r.least},
           {"mrays_per_s_most", r.most},
@@ -75,7 +68,7 @@ nlohmann::json measure(const std::string& name, const char* kind, const std::vec
     std::size_t differ = 0;
     for (std::size_t k = 0; k < rays.size(); ++k)
       differ += (hits[k].triangle != tracer::miss) != bool(peer_hits[k]);
-    const spread ratio = spread_of(ratios);
+    const study::summary ratio = study::summarize(ratios);
     row["embree"] = rates(peer_times, rays.size());
     row["ratio"] = {{"median", ratio.median}, {"least", ratio.least}, {"most", ratio.most}};
     row["hit_or_miss_differs"] = differ;

@@ -71,6 +71,14 @@ mesh load_workload(const std::string& name) {
   return m;
 }
 
+scene scene_of(mesh m) {
+  scene s;
+  s.materials.emplace_back();
+  s.meshes.push_back(std::move(m));
+  s.instances.emplace_back();
+  return s;
+}
+
 std::vector<ray> primary_rays() {
   constexpr auto w = float(picture_width), h = float(picture_height);
   const vec3f eye{0.75f, 0.55f, 1.05f}, at{0, -0.02f, 0};

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "reference/ray.hpp"
-#include "scene/mesh.hpp"
+#include "scene/scene.hpp"
 
 namespace facet::bench {
 
@@ -20,6 +20,9 @@ using hit = reference::hit<float>;
 /// "terrain:N" (2 N^2 triangles), "soup:N" (N triangles) or the path of an OBJ file, normalised.
 /// Throws scene_error if the file cannot be read or holds no triangle.
 mesh load_workload(const std::string& name);
+
+/// The mesh alone: one instance under the identity, one material.
+scene scene_of(mesh m);
 
 std::vector<ray> primary_rays();
 
