@@ -141,6 +141,45 @@ struct FACET_ALIGNED Hit {
   uint triangle;
 };
 
+// What a kernel could not do, counted, so that the host can say it.
+struct FACET_ALIGNED Faults {
+  uint refused;  // rays, or their ways through an instance, that triangle.h's space_of refused
+  uint spare[3];
+};
+
+// What probe.cl tells of the surface that a ray meets: all that shading and the next rays start
+// from. A miss has triangle FACET_NONE and is 0 otherwise.
+struct FACET_ALIGNED SurfacePoint {
+  float t, u, v;
+  uint triangle;
+  float p[3];
+  uint instance;
+  float geometric[3];  // against the ray
+  float delta;
+  float shading[3];
+  uint is_front;
+  float near_side[3];  // where rays start that leave to the ray's side
+  uint material;
+  float far_side[3];
+  uint children;  // 1: a reflected ray follows; 2: a refracted one
+  float reflected[3];
+  uint spare0;
+  float reflected_weight[3];
+  uint spare1;
+  float refracted[3];
+  uint spare2;
+  float refracted_weight[3];
+  uint spare3;
+};
+
+// What probe.cl tells of the way to a light.
+struct FACET_ALIGNED Passage {
+  float transmittance[3];
+  uint is_dark;  // something opaque stands in the way
+  uint entries, exits;
+  uint spare[2];
+};
+
 #define FACET_NONE 0xffffffffu
 
 // A leaf as a child: count triangles (1 to 16) in leaf order from first (below 2^27).
@@ -161,6 +200,9 @@ typedef struct View View;
 typedef struct World World;
 typedef struct Ray Ray;
 typedef struct Hit Hit;
+typedef struct Faults Faults;
+typedef struct SurfacePoint SurfacePoint;
+typedef struct Passage Passage;
 #endif
 
 FACET_SIZE(Box, 32)
@@ -174,6 +216,9 @@ FACET_SIZE(View, 96)
 FACET_SIZE(World, 32)
 FACET_SIZE(Ray, 32)
 FACET_SIZE(Hit, 16)
+FACET_SIZE(Faults, 16)
+FACET_SIZE(SurfacePoint, 160)
+FACET_SIZE(Passage, 32)
 
 #ifndef __OPENCL_C_VERSION__
 }  // namespace facet::tracer

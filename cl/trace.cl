@@ -13,12 +13,12 @@ static inline void write_hit(__global Hit* hits, __global uint* instances, size_
 
 __kernel void trace_closest(__global const World* world, __global const Node* nodes,
                             __global const Instance* instances, __global const TriangleInfo* infos,
-                            __global const Material* materials, GEOMETRY positions,
+                            __global const Material* materials, __global Faults* faults, GEOMETRY positions,
                             __global const Ray* rays, __global Hit* hits, __global uint* hit_instances,
                             uint count) {
   const size_t i = get_global_id(0);
   if (i >= count) return;
-  const Scene s = scene_of(world, nodes, instances, infos, materials);
+  const Scene s = scene_of(world, nodes, instances, infos, materials, faults);
   const Query q = traverse(&s, positions, vec_global(rays[i].origin), vec_global(rays[i].direction),
                            rays[i].tmin, rays[i].tmax, FACET_CLOSEST);
   write_hit(hits, hit_instances, i, &q);
@@ -27,12 +27,12 @@ __kernel void trace_closest(__global const World* world, __global const Node* no
 // Only whether something is met: triangle and instance 0 if so.
 __kernel void trace_any(__global const World* world, __global const Node* nodes,
                         __global const Instance* instances, __global const TriangleInfo* infos,
-                        __global const Material* materials, GEOMETRY positions,
+                        __global const Material* materials, __global Faults* faults, GEOMETRY positions,
                         __global const Ray* rays, __global Hit* hits, __global uint* hit_instances,
                         uint count) {
   const size_t i = get_global_id(0);
   if (i >= count) return;
-  const Scene s = scene_of(world, nodes, instances, infos, materials);
+  const Scene s = scene_of(world, nodes, instances, infos, materials, faults);
   Query q = traverse(&s, positions, vec_global(rays[i].origin), vec_global(rays[i].direction),
                      rays[i].tmin, rays[i].tmax, FACET_ANY);
   if (q.triangle != FACET_NONE) {

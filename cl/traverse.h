@@ -12,18 +12,20 @@ typedef struct {
   __global const Instance* restrict instances;  // in the order of the top tree's leaves
   __global const TriangleInfo* restrict infos;  // in leaf order
   __global const Material* restrict materials;
+  volatile __global Faults* faults;
   float3 reach;
   uint root, instance_count, triangle_count;
 } Scene;
 
 static inline Scene scene_of(__global const World* w, __global const Node* nodes,
                       __global const Instance* instances, __global const TriangleInfo* infos,
-                      __global const Material* materials) {
+                      __global const Material* materials, __global Faults* faults) {
   Scene s;
   s.nodes = nodes;
   s.instances = instances;
   s.infos = infos;
   s.materials = materials;
+  s.faults = faults;
   s.reach = vec_global(w->reach);
   s.root = w->root;
   s.instance_count = w->instance_count;
@@ -44,6 +46,9 @@ typedef struct {
   // 2^-32 (an integer, so that the order of the crossings cannot reach the sum).
   float t_end;
   long depth[3];
+#ifdef FACET_COUNT_CROSSINGS
+  uint entries, exits;
+#endif
 } Query;
 
 static inline uint material_of(const Scene* s, uint place, uint slot) {
@@ -62,6 +67,10 @@ static inline long fixed_depth(float x) {
 
 static inline void add_crossing(Query* q, __global const Material* m, float t, bool is_front) {
   const float inside = is_front ? q->t_end - t : -(q->t_end - t);
+#ifdef FACET_COUNT_CROSSINGS
+  q->entries += is_front;
+  q->exits += !is_front;
+#endif
   for (int c = 0; c < 3; ++c)
     q->depth[c] += fixed_depth(m->minus_ln_Kt[c]) + fixed_depth(inside * m->sigma[c]);
 }
@@ -110,8 +119,11 @@ static inline bool enter_instance(const Scene* s, uint place, float3 o, float3 d
   __global const Instance* i = &s->instances[place];
   *outer = box_interval(world, vec_global(i->lo), vec_global(i->hi));
   if (!(outer->near <= outer->far)) return false;
-  return space_of(space, map_point(i->object_from_world, o), map_vector(i->object_from_world, d),
-                  vec_global(i->reach));
+  if (space_of(space, map_point(i->object_from_world, o), map_vector(i->object_from_world, d),
+               vec_global(i->reach)))
+    return true;
+  atomic_inc(&s->faults->refused);
+  return false;
 }
 
 #ifdef FACET_TREE_NONE
@@ -220,8 +232,8 @@ static inline void search(const Scene* s, GEOMETRY positions, float3 o, float3 d
 
 #endif
 
-// A ray that cannot be used (triangle.h: space_of), or whose tmin or tmax is NaN, meets nothing;
-// a negative tmin counts as 0. For a miss t is tmax. `end`: see light.h.
+// A ray that cannot be used (triangle.h: space_of), or whose tmin or tmax is NaN, meets nothing and
+// is counted; a negative tmin counts as 0. For a miss t is tmax. `end`: see light.h.
 static inline Query traverse_to(const Scene* s, GEOMETRY positions, float3 o, float3 d, float tmin,
                                 float tmax, float end, uint mode) {
   Query q;
@@ -231,9 +243,17 @@ static inline Query traverse_to(const Scene* s, GEOMETRY positions, float3 o, fl
   q.place = q.slot = 0u;
   q.depth[0] = q.depth[1] = q.depth[2] = 0;
   q.t_end = end;
+#ifdef FACET_COUNT_CROSSINGS
+  q.entries = q.exits = 0u;
+#endif
   Space space;
   const float start = tmin < 0.0f ? 0.0f : tmin;
-  if (s->instance_count == 0u || !(start <= tmax) || !space_of(&space, o, d, s->reach)) return q;
+  if (start > tmax) return q;
+  if (!(start <= tmax) || !space_of(&space, o, d, s->reach)) {
+    atomic_inc(&s->faults->refused);
+    return q;
+  }
+  if (s->instance_count == 0u) return q;
   search(s, positions, o, d, start, mode, &space, &q);
   return q;
 }

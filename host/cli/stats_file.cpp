@@ -22,6 +22,7 @@ nlohmann::ordered_json to_json(const tracer::statistics& s) {
           {"platform", s.platform},
           {"driver", s.driver},
           {"rays", s.rays},
+          {"refused", s.refused},
           {"kernel_ms", kernel_ms},
           {"kernel_ms_all", s.kernel_ms},
           {"mrays_per_s", kernel_ms > 0 ? double(s.rays) / kernel_ms / 1000 : 0},

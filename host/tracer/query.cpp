@@ -50,6 +50,7 @@ std::vector<hit> device_scene::trace(std::span<const ray> rays, bool any, unsign
   // moving the rays, before anything is timed.
   launch(std::min(count, s.tuned.group)).wait_and_throw();
   for (unsigned k = 0; k < std::max(1u, repeat); ++k) {
+    s.clear_faults();
     const runtime::event done = launch(count);
     done.wait_and_throw();
     if (stats) stats->kernel_ms.push_back(done.milliseconds());
@@ -61,9 +62,11 @@ std::vector<hit> device_scene::trace(std::span<const ray> rays, bool any, unsign
     const std::uint32_t instance = h.triangle == miss ? miss : with_instances ? where[i] : 0;
     hits[i] = {h.t, h.u, h.v, instance, h.triangle};
   }
-  if (stats)
+  if (stats) {
+    stats->refused = s.read_faults().refused;
     stats->wall_ms =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  }
   return hits;
 }
 

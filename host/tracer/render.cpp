@@ -94,10 +94,7 @@ picture device_scene::render(std::uint32_t width, std::uint32_t height, std::uin
   const auto launch = [&](const tile& t) {
     return s.queue.submit([&](runtime::handler& g) {
       std::uint32_t k = s.set_geometry(g);
-      if (s.in_images)
-        g.set_arg(k++, runtime::image_accessor{*s.geometry.normal_image, g, runtime::read_only});
-      else
-        g.set_arg(k++, runtime::accessor{s.geometry.normals, g, runtime::read_only});
+      k = s.set_normals(g, k);
       g.set_arg(k++, runtime::accessor{s.lights, g, runtime::read_only});
       g.set_arg(k++, runtime::accessor{view_buffer, g, runtime::read_only});
       g.set_arg(k++, runtime::accessor{pixels, g, runtime::read_write});
@@ -111,6 +108,7 @@ picture device_scene::render(std::uint32_t width, std::uint32_t height, std::uin
 
   // The first launch of a work-group size may compile (PoCL does): one pixel pays for it.
   launch({0, 0, 1, 1}).wait_and_throw();
+  s.clear_faults();
   std::uint64_t done = 0;
   double kernel_ms = 0;
   std::uint32_t tiles = 0;
@@ -140,6 +138,7 @@ picture device_scene::render(std::uint32_t width, std::uint32_t height, std::uin
     stats->group_width = w;
     stats->group_height = h;
     stats->tiles = tiles;
+    stats->refused = s.read_faults().refused;
     stats->wall_ms =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   }

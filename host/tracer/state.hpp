@@ -20,15 +20,22 @@ struct device_scene::state {
   scene model;  ///< without its meshes: camera, lights and limits of later pictures
   device_geometry geometry;
   runtime::buffer<Light> lights;
-  std::optional<runtime::program> trace_program, render_program;
+  runtime::buffer<Faults> faults;
+  std::optional<runtime::program> trace_program, render_program, probe_program;
   std::uint32_t render_stack = 0;  ///< entries of pending rays that render_program was built for
 
   /// Compiles on first use, and again where a deeper picture needs a larger stack of pending rays.
   runtime::kernel trace_kernel(bool any);
   runtime::kernel render_kernel(std::uint32_t max_depth);
+  runtime::kernel probe_kernel(const char* name);
 
   /// Sets a kernel's first arguments, those of every traversal (cl/trace.cl, cl/render.cl).
   std::uint32_t set_geometry(runtime::handler& h);
+  std::uint32_t set_normals(runtime::handler& h, std::uint32_t k);
+
+  void clear_faults();
+  /// Waits for what was submitted.
+  Faults read_faults();
   /// What is known before anything runs: device, tree, features, times of preparation.
   void describe(statistics& s) const;
 };

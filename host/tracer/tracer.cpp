@@ -21,6 +21,20 @@ scene without_meshes(const scene& s) {
   return shell;
 }
 
+void apply(const kernel_edit& e, runtime::source_tree& kernels) {
+  const auto file = kernels.files.find(e.file);
+  if (file == kernels.files.end())
+    throw runtime::exception(runtime::errc::invalid,
+                             "a kernel variant edits " + e.file + ", which is not there");
+  std::string& text = file->second;
+  const std::size_t at = text.find(e.from);
+  if (at == std::string::npos || text.find(e.from, at + 1) != std::string::npos)
+    throw runtime::exception(runtime::errc::invalid, "a kernel variant edits \"" + e.from +
+                                                         "\", which " + e.file +
+                                                         " does not hold exactly once");
+  text.replace(at, e.from.size(), e.to);
+}
+
 runtime::buffer<Light> light_buffer(const std::vector<Light>& lights) {
   return lights.empty() ? runtime::buffer<Light>(1)
                         : runtime::buffer<Light>(lights.data(), lights.size());
@@ -29,19 +43,22 @@ runtime::buffer<Light> light_buffer(const std::vector<Light>& lights) {
 }  // namespace
 
 device_scene::device_scene(runtime::queue queue, const scene& s, options o) {
-  const tuning tuned = tuning_for(queue.get_device());
+  tuning tuned = tuning_for(queue.get_device());
+  tuned.more_flags = o.compiler_flags;
   const features used = o.all_features ? features::all() : features::of(s);
   const bool in_images = o.geometry == geometry_kind::image ||
                          (o.geometry == geometry_kind::automatic && tuned.image_geometry);
   runtime::source_tree kernels =
       o.kernel_folder.empty() ? kernel_sources() : runtime::read_folder(o.kernel_folder);
+  for (const kernel_edit& e : o.edits) apply(e, kernels);
   packed_scene packed = pack(s, used.smooth);
   runtime::buffer<Light> lights = light_buffer(packed.lights);
   device_geometry geometry =
       build_geometry(queue, kernels, std::move(packed), used, o.tree, in_images, tuned);
   state_ = std::make_unique<state>(state{queue, std::move(o), tuned, used, in_images,
                                          std::move(kernels), without_meshes(s), std::move(geometry),
-                                         std::move(lights), std::nullopt, std::nullopt, 0});
+                                         std::move(lights), runtime::buffer<Faults>(1),
+                                         std::nullopt, std::nullopt, std::nullopt, 0});
 }
 
 device_scene::~device_scene() = default;
@@ -66,6 +83,15 @@ runtime::kernel device_scene::state::render_kernel(std::uint32_t max_depth) {
   return render_program->get_kernel("render");
 }
 
+runtime::kernel device_scene::state::probe_kernel(const char* name) {
+  constexpr std::uint32_t one_bounce = 1;
+  if (!probe_program)
+    probe_program.emplace(
+        queue.get_context(), kernels, "probe.cl",
+        traversal_options(compiled, chosen.tree, in_images, geometry.stack, one_bounce, tuned));
+  return probe_program->get_kernel(name);
+}
+
 std::uint32_t device_scene::state::set_geometry(runtime::handler& h) {
   std::uint32_t k = 0;
   h.set_arg(k++, runtime::accessor{geometry.world, h, runtime::read_only});
@@ -73,11 +99,32 @@ std::uint32_t device_scene::state::set_geometry(runtime::handler& h) {
   h.set_arg(k++, runtime::accessor{geometry.instances, h, runtime::read_only});
   h.set_arg(k++, runtime::accessor{geometry.infos, h, runtime::read_only});
   h.set_arg(k++, runtime::accessor{geometry.materials, h, runtime::read_only});
+  h.set_arg(k++, runtime::accessor{faults, h, runtime::read_write});
   if (in_images)
     h.set_arg(k++, runtime::image_accessor{*geometry.corner_image, h, runtime::read_only});
   else
     h.set_arg(k++, runtime::accessor{geometry.corners, h, runtime::read_only});
   return k;
+}
+
+std::uint32_t device_scene::state::set_normals(runtime::handler& h, std::uint32_t k) {
+  if (in_images)
+    h.set_arg(k++, runtime::image_accessor{*geometry.normal_image, h, runtime::read_only});
+  else
+    h.set_arg(k++, runtime::accessor{geometry.normals, h, runtime::read_only});
+  return k;
+}
+
+void device_scene::state::clear_faults() {
+  queue.submit([&](runtime::handler& h) {
+    const runtime::accessor all{faults, h, runtime::write_only};
+    h.fill(all, Faults{});
+  });
+}
+
+Faults device_scene::state::read_faults() {
+  const runtime::host_accessor found{faults, runtime::read_only};
+  return found[0];
 }
 
 void device_scene::state::describe(statistics& s) const {

@@ -19,6 +19,11 @@ namespace facet::tracer {
 enum class tree_kind { none, levels };
 enum class geometry_kind { automatic, buffer, image };
 
+/// A change of the kernels' text: `from`, which must stand in `file` exactly once, becomes `to`.
+struct kernel_edit {
+  std::string file, from, to;
+};
+
 struct options {
   tree_kind tree = tree_kind::levels;
   geometry_kind geometry = geometry_kind::automatic;
@@ -26,6 +31,8 @@ struct options {
   std::uint32_t tile_width = 0, tile_height = 0;    ///< pixels a launch; 0: about 50 ms each
   bool all_features = false;                        ///< compile what the scene does not need, too
   std::string kernel_folder;                        ///< read cl/ from here, not from the library
+  std::vector<kernel_edit> edits;                   ///< how a variant differs, in order
+  std::string compiler_flags;                       ///< added to those of every program
 };
 
 /// One ray of `trace`: 32 bytes, as in the file format of `facet trace`.
@@ -46,6 +53,27 @@ struct hit {
   std::uint32_t instance, triangle;
 };
 
+/// The surface that a ray meets and the rays that follow it, as shading sees them; a miss has
+/// triangle `miss` and is 0 but for t. The sides are where rays start that leave it.
+struct surface_point {
+  hit met;
+  bool is_front;
+  std::uint32_t material;
+  vec3f point, geometric, shading;  ///< unit normals, against the ray
+  float delta;                      ///< how far the sides lie from the point
+  vec3f near_side, far_side;
+  bool reflects, refracts;
+  vec3f reflected, reflected_weight;  ///< unit direction, and the share of its radiance
+  vec3f refracted, refracted_weight;
+};
+
+/// What passes along a ray, and how many transparent surfaces it enters and leaves.
+struct passage {
+  vec3f transmittance;
+  bool is_dark;  ///< something opaque stands in the way; the counts are then those met before it
+  std::uint32_t entries, exits;
+};
+
 /// Times in milliseconds: device times from events, compile and wall times from the host's clock.
 struct statistics {
   std::string device, platform, driver;
@@ -62,6 +90,9 @@ struct statistics {
   std::uint32_t tree_depth = 0;
   std::uint64_t tree_nodes = 0;
   std::uint64_t device_bytes = 0;
+  /// Rays, of the last repeat, that could not be used: not finite, or out of range
+  /// (cl/triangle.h: space_of). They meet nothing.
+  std::uint64_t refused = 0;
 };
 
 /// Called after each tile with done and total pixels.
@@ -92,6 +123,12 @@ class device_scene {
   /// triangle with 0 for a hit (which one is not defined), t, u, v with 0.
   std::vector<hit> trace(std::span<const ray> rays, bool any = false, unsigned repeat = 1,
                          statistics* stats = nullptr);
+
+  /// The surfaces that rays with unit directions meet.
+  std::vector<surface_point> surfaces(std::span<const ray> rays);
+  /// What passes along rays with unit directions from their origin to tmax (a point light there,
+  /// or a directional one if it is infinite); `medium` is the material around the origins.
+  std::vector<passage> passages(std::span<const ray> rays, std::uint32_t medium = miss);
 
  private:
   struct state;

@@ -6,6 +6,7 @@ std::string tuning::flags() const {
   std::string options = " -cl-std=CL1.2";
   if (correctly_rounded) options += " -cl-fp32-correctly-rounded-divide-sqrt";
   if (hardware_minmax) options += " -DFACET_HARDWARE_MINMAX";
+  if (!more_flags.empty()) options += " " + more_flags;
   return options;
 }
 

@@ -19,6 +19,8 @@ struct tuning {
   bool hardware_minmax = false;           ///< cl/device.h
   bool correctly_rounded = false;         ///< the device can be asked for exact divide and sqrt
 
+  std::string more_flags;  ///< as options::compiler_flags has them
+
   /// Options for the compiler, each with a space before it.
   std::string flags() const;
 };
