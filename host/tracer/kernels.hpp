@@ -14,6 +14,11 @@ namespace facet::tracer {
 /// All files of cl/, by name.
 const runtime::source_tree& kernel_sources();
 
+/// The program made of `main_file`, compiled once in a process for each context, text and options:
+/// programs with the same are one. Throws runtime::exception (build).
+runtime::program compiled(const runtime::queue& q, const runtime::source_tree& kernels,
+                          const std::string& main_file, const std::string& options);
+
 /// The options that trace.cl and render.cl are compiled with for this geometry.
 /// ray_stack: entries of the stack of pending rays, at least the depth of what is rendered.
 std::string traversal_options(const features& f, tree_kind tree, bool in_images,

@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "tracer/kernels.hpp"
 #include "tracer/launch.hpp"
 
 namespace facet::tracer {
@@ -21,7 +22,7 @@ levels_builder::levels_builder(runtime::queue q, const runtime::source_tree& ker
       morton_(q, kernels, t),
       sort_codes_(q, kernels, t),
       sort_levels_(q, kernels, t),
-      program_(q.get_context(), kernels, "levels.cl", t.flags()),
+      program_(compiled(q, kernels, "levels.cl", t.flags())),
       boundary_levels_(program_.get_kernel("boundary_levels")),
       level_starts_(program_.get_kernel("level_starts")),
       make_leaves_(program_.get_kernel("make_leaves")),

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "tracer/kernels.hpp"
 #include "tracer/launch.hpp"
 
 namespace facet::tracer {
@@ -15,7 +16,7 @@ constexpr std::uint32_t partial_count = 1024;
 morton::morton(runtime::queue q, const runtime::source_tree& kernels, const tuning& t)
     : queue_(q),
       tuning_(t),
-      program_(q.get_context(), kernels, "morton.cl", t.flags()),
+      program_(compiled(q, kernels, "morton.cl", t.flags())),
       triangle_boxes_(program_.get_kernel("triangle_boxes")),
       partial_bounds_(program_.get_kernel("partial_bounds")),
       total_bounds_(program_.get_kernel("total_bounds")),

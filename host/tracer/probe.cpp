@@ -57,7 +57,7 @@ std::vector<surface_point> device_scene::surfaces(std::span<const ray> rays) {
   points.reserve(rays.size());
   const runtime::host_accessor found{out, runtime::read_only};
   for (std::size_t i = 0; i < rays.size(); ++i)
-    points.push_back(unpacked(found[i], s.compiled.instances));
+    points.push_back(unpacked(found[i], s.used.instances));
   return points;
 }
 

@@ -31,7 +31,7 @@ std::vector<hit> device_scene::trace(std::span<const ray> rays, bool any, unsign
   if (rays.empty()) return hits;
 
   const auto start = std::chrono::steady_clock::now();
-  const bool with_instances = s.compiled.instances;
+  const bool with_instances = s.used.instances;
   const auto count = std::uint32_t(rays.size());
   runtime::buffer<Ray> in(reinterpret_cast<const Ray*>(rays.data()), rays.size());
   runtime::buffer<Hit> out(rays.size());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "tracer/kernels.hpp"
 #include "tracer/launch.hpp"
 
 namespace facet::tracer {
@@ -17,8 +18,8 @@ template <class Key>
 radix_sort<Key>::radix_sort(runtime::queue q, const runtime::source_tree& kernels, const tuning& t)
     : queue_(q),
       tuning_(t),
-      program_(q.get_context(), kernels, "radix_sort.cl",
-               t.flags() + (sizeof(Key) == 8 ? " -DKEY=ulong" : " -DKEY=uint")),
+      program_(compiled(q, kernels, "radix_sort.cl",
+                        t.flags() + (sizeof(Key) == 8 ? " -DKEY=ulong" : " -DKEY=uint"))),
       count_(program_.get_kernel("count_digits")),
       scan_(program_.get_kernel("scan_digits")),
       scatter_(program_.get_kernel("scatter")) {}

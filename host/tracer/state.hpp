@@ -14,7 +14,7 @@ struct device_scene::state {
   runtime::queue queue;
   options chosen;
   tuning tuned;
-  features compiled;
+  features used;
   bool in_images = false;
   runtime::source_tree kernels;
   scene model;  ///< without its meshes: camera, lights and limits of later pictures

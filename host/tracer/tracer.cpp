@@ -67,17 +67,17 @@ device_scene& device_scene::operator=(device_scene&&) noexcept = default;
 
 runtime::kernel device_scene::state::trace_kernel(bool any) {
   if (!trace_program)
-    trace_program.emplace(
-        queue.get_context(), kernels, "trace.cl",
-        traversal_options(compiled, chosen.tree, in_images, geometry.stack, 0, tuned));
+    trace_program =
+        compiled(queue, kernels, "trace.cl",
+                 traversal_options(used, chosen.tree, in_images, geometry.stack, 0, tuned));
   return trace_program->get_kernel(any ? "trace_any" : "trace_closest");
 }
 
 runtime::kernel device_scene::state::render_kernel(std::uint32_t max_depth) {
   if (!render_program || render_stack < max_depth) {
-    render_program.emplace(
-        queue.get_context(), kernels, "render.cl",
-        traversal_options(compiled, chosen.tree, in_images, geometry.stack, max_depth, tuned));
+    render_program =
+        compiled(queue, kernels, "render.cl",
+                 traversal_options(used, chosen.tree, in_images, geometry.stack, max_depth, tuned));
     render_stack = max_depth;
   }
   return render_program->get_kernel("render");
@@ -86,9 +86,9 @@ runtime::kernel device_scene::state::render_kernel(std::uint32_t max_depth) {
 runtime::kernel device_scene::state::probe_kernel(const char* name) {
   constexpr std::uint32_t one_bounce = 1;
   if (!probe_program)
-    probe_program.emplace(
-        queue.get_context(), kernels, "probe.cl",
-        traversal_options(compiled, chosen.tree, in_images, geometry.stack, one_bounce, tuned));
+    probe_program = compiled(
+        queue, kernels, "probe.cl",
+        traversal_options(used, chosen.tree, in_images, geometry.stack, one_bounce, tuned));
   return probe_program->get_kernel(name);
 }
 
@@ -137,7 +137,7 @@ void device_scene::state::describe(statistics& s) const {
   s.upload_ms = geometry.upload_ms;
   s.build_ms = geometry.build_ms;
   s.geometry = in_images ? "image" : "buffer";
-  s.features = compiled.names();
+  s.features = used.names();
   s.tree_depth = geometry.depth;
   s.tree_nodes = geometry.nodes_used;
   s.device_bytes = geometry.bytes;

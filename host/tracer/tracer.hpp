@@ -77,7 +77,7 @@ struct passage {
 /// Times in milliseconds: device times from events, compile and wall times from the host's clock.
 struct statistics {
   std::string device, platform, driver;
-  double compile_ms = 0;          ///< programs, all of them
+  double compile_ms = 0;          ///< programs, all of them; of those made before, too
   double upload_ms = 0;           ///< packing and moving the scene, host clock
   double build_ms = 0;            ///< tree, host clock from first launch to last
   std::vector<double> kernel_ms;  ///< trace: one a repeat; render: the sum over the tiles, once

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "tracer/kernels.hpp"
 #include "tracer/launch.hpp"
 #include "tracer/levels.hpp"
 
@@ -72,7 +73,7 @@ class geometry_builder {
         tuning_(t),
         morton_(q, kernels, t),
         levels_(q, kernels, t),
-        program_(q.get_context(), kernels, "tree.cl", t.flags()),
+        program_(compiled(q, kernels, "tree.cl", t.flags())),
         make_nodes_(program_.get_kernel("make_nodes")),
         gather_triangles_(program_.get_kernel("gather_triangles")),
         gather_normals_(program_.get_kernel("gather_normals")) {}
