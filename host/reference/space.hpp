@@ -48,7 +48,8 @@ struct axes {
 template <class T>
 struct space {
   vec3<T> origin;
-  int kx, ky, kz;   ///< kz: the direction's largest axis; the swap of kx and ky keeps winding
+  int kx, ky, kz;   ///< kz: the direction's largest axis; the other two follow it in a circle
+  bool down;        ///< against that axis: corners that turn left then turn right
   T Sx, Sy, Sz;     ///< the shear that maps the direction to +z
   vec3<T> inverse;  ///< 1 / direction, bounded
   vec3<T> reach;    ///< |origin| + the largest |coordinate| of the boxes, by axis
@@ -62,9 +63,8 @@ struct space {
     kz = a.y > a.x ? 1 : 0;
     kz = a.z > std::max(a.x, a.y) ? 2 : kz;
     const axes<T> direction(d);
-    const bool down = direction[kz] < 0;
-    const int next = kz == 2 ? 0 : kz + 1, last = kz == 0 ? 2 : kz - 1;
-    kx = down ? last : next, ky = down ? next : last;
+    down = direction[kz] < 0;
+    kx = kz == 2 ? 0 : kz + 1, ky = kz == 0 ? 2 : kz - 1;
     Sx = direction[kx] / direction[kz], Sy = direction[ky] / direction[kz], Sz = 1 / direction[kz];
 
     reach = abs(o) + extent;

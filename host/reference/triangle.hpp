@@ -1,6 +1,6 @@
-// The watertight ray-triangle test of Woop, Benthin and Wald (JCGT 2013), with an exact step where
-// an edge function is 0, the distance held to the triangle's own slab interval, and a variant that
-// gives each edge to exactly one of its triangles.
+// The watertight ray-triangle test of Woop, Benthin and Wald (JCGT 2013) with accurate edge
+// functions, the distance held to the triangle's own slab interval, and a variant that gives each
+// edge to exactly one of its triangles.
 #pragma once
 
 #include <array>
@@ -41,12 +41,12 @@ struct sheared {
   }
 };
 
-/// Twice the signed area of (ray, p, q). Where the rounded products agree their errors decide.
+/// Twice the signed area of (ray, p, q), to within 2u of itself: Kahan's difference of products
+/// (Jeannerod, Louvet, Muller 2013). Its sign is exact.
 template <class T>
 T edge(const sheared<T>& p, const sheared<T>& q) {
-  const T a = p.x * q.y, b = p.y * q.x;
-  const T e = a - b;
-  return e != 0 ? e : std::fma(p.x, q.y, -a) - std::fma(p.y, q.x, -b);
+  const T second = p.y * q.x;
+  return std::fma(p.x, q.y, -second) + std::fma(-p.y, q.x, second);
 }
 
 /// Sign of edge(p, q) for the ray moved by (e, e^2), e -> 0: 0 only if p and q coincide. A shared
@@ -95,7 +95,8 @@ class triangle_test {
   /// triangle has positive edge functions.
   int side() const {
     const int u = shifted_sign(u_, c_, b_);
-    return u == shifted_sign(v_, a_, c_) && u == shifted_sign(w_, b_, a_) ? u : 0;
+    if (u != shifted_sign(v_, a_, c_) || u != shifted_sign(w_, b_, a_)) return 0;
+    return space_.down ? -u : u;
   }
 
  private:

@@ -9,7 +9,8 @@
 namespace facet::reference {
 
 /// Bit k is set unless triangle k of the block certainly is beside the ray: the edge functions of
-/// triangle_test four at a time, without the exact step, so that an edge function of 0 passes.
+/// triangle_test four at a time, with rounded products: their difference has the right sign or is
+/// 0, and 0 passes.
 template <class T>
 [[gnu::always_inline]] inline unsigned beside_filter(const space<T>& s, const triangle_block& b) {
   lanes<T> x[3], y[3];

@@ -138,7 +138,7 @@ TEST_CASE("corners on a line have no area, a sliver one ulp wide has") {
 
 TEST_CASE_TEMPLATE("a ray on an edge goes to the side of a shift by (e, e^2) in sheared x and y", T,
                    float, double) {
-  // Along -z sheared x is y and sheared y is x: the ray moves to +y, and far less to +x.
+  // Along -z sheared x is x and sheared y is y: the ray moves to +x, and far less to +y.
   const corners<T> above{vec3<T>(), vec3<T>(4, 4, 0), vec3<T>(0, 4, 0)};
   const corners<T> right{vec3<T>(), vec3<T>(4, 0, 0), vec3<T>(4, 4, 0)};
   const corners<T> left{vec3<T>(), vec3<T>(0, 4, 0), vec3<T>(-4, 4, 0)};
@@ -146,12 +146,12 @@ TEST_CASE_TEMPLATE("a ray on an edge goes to the side of a shift by (e, e^2) in 
     const auto s = looking<T>({x, y, 1}, {0, 0, -1});
     return triangle_test<T>(s, p).side();
   };
-  CHECK(side(0, 0, above) == 1);
-  CHECK(side(0, 0, right) == 0);
+  CHECK(side(0, 0, above) == 0);
+  CHECK(side(0, 0, right) == 1);
   CHECK(side(0, 0, left) == 0);
   CHECK(side(2, 0, right) == 1);
-  CHECK(side(2, 2, above) == 1);
-  CHECK(side(2, 2, right) == 0);
+  CHECK(side(2, 2, above) == 0);
+  CHECK(side(2, 2, right) == 1);
   CHECK(side(0, 2, above) == 1);
   CHECK(side(0, 2, left) == 0);
 }
