@@ -10,15 +10,22 @@
 //   FACET_TREE_NONE        brute force: every triangle is tested
 //   FACET_STACK=n          entries of the traversal stack: three for each level (traverse.h)
 //   FACET_RAY_STACK=n      entries of the stack of pending rays: at least max_depth
+//   FACET_NESTING=n        transparent objects that may lie within one another (media.h)
 //   FACET_HARDWARE_MINMAX  see device.h
 #ifndef FACET_FEATURES_H
 #define FACET_FEATURES_H
+
+#include "layout.h"
 
 #ifndef FACET_STACK
 #define FACET_STACK 192
 #endif
 #ifndef FACET_RAY_STACK
 #define FACET_RAY_STACK 64
+#endif
+
+#ifndef FACET_NESTING
+#define FACET_NESTING FACET_MOST_NESTING
 #endif
 
 #if !defined(FACET_NO_TRANSPARENCY) || !defined(FACET_NO_REFLECTION)

@@ -101,6 +101,9 @@ struct FACET_ALIGNED Light {
   uint spare1;
 };
 
+// Transparent objects that may lie within one another, at most.
+#define FACET_MOST_NESTING 8
+
 // All that a picture needs beside its geometry: camera (host/scene/scene.hpp: camera_frame),
 // surroundings, limits.
 struct FACET_ALIGNED View {
@@ -116,6 +119,7 @@ struct FACET_ALIGNED View {
   float background_alpha;
   float ambient[3];
   uint light_count;
+  uint media[FACET_MOST_NESTING];  // around the camera, innermost first, then FACET_NONE
 };
 
 // What traversal needs of the whole scene.
@@ -144,7 +148,8 @@ struct FACET_ALIGNED Hit {
 // What a kernel could not do, counted, so that the host can say it.
 struct FACET_ALIGNED Faults {
   uint refused;  // rays, or their ways through an instance, that triangle.h's space_of refused
-  uint spare[3];
+  uint crowded;  // transparent objects entered while the list of media was full (media.h)
+  uint spare[2];
 };
 
 // What probe.cl tells of the surface that a ray meets: all that shading and the next rays start
@@ -212,7 +217,7 @@ FACET_SIZE(TriangleInfo, 16)
 FACET_SIZE(Instance, 160)
 FACET_SIZE(Material, 128)
 FACET_SIZE(Light, 48)
-FACET_SIZE(View, 96)
+FACET_SIZE(View, 128)
 FACET_SIZE(World, 32)
 FACET_SIZE(Ray, 32)
 FACET_SIZE(Hit, 16)

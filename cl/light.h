@@ -2,25 +2,27 @@
 #ifndef FACET_LIGHT_H
 #define FACET_LIGHT_H
 
+#include "media.h"
 #include "surface.h"
 
 // T, what reaches a point: the product of Kt over the surfaces crossed and of A^(s/D) over the way inside;
-// 0 as soon as something opaque stands between. `start` is on the surface's outer side, `medium`
-// what surrounds it there (FACET_NONE: nothing), `distance` INFINITY for a directional light.
+// 0 as soon as something opaque stands between. `media` surround `start`; `distance` is INFINITY for a
+// directional light.
 //
 // A crossing at t adds -ln(Kt) and +-(end - t) sigma, + where a medium is entered; a medium around
 // the start adds end * sigma. For a point light `end` is its distance, so that a medium around the
 // light is counted up to it; for a directional one it is 0, as every medium is left again.
 static inline float3 transmittance(const Scene* s, GEOMETRY positions, float3 start, float3 direction,
-                                   float distance, bool is_point, uint medium) {
+                                   float distance, bool is_point, Media media) {
 #ifdef FACET_NO_TRANSPARENCY
   const Query q = traverse(s, positions, start, direction, 0.0f, distance, FACET_ANY);
   return q.triangle == FACET_NONE ? (float3)(1.0f) : (float3)(0.0f);
 #else
   Query q = crossings(s, positions, start, direction, distance, is_point ? distance : 0.0f);
   if (q.triangle != FACET_NONE) return (float3)(0.0f);
-  if (medium != FACET_NONE && is_point) {
-    __global const Material* m = &s->materials[medium];
+  for (int k = 0; k < FACET_NESTING; ++k) {
+    if (media.of[k] == FACET_NONE || !is_point) continue;
+    __global const Material* m = &s->materials[media.of[k]];
     for (int c = 0; c < 3; ++c) q.depth[c] += fixed_depth(distance * m->sigma[c]);
   }
   float t[3];
@@ -39,9 +41,9 @@ static inline float falloff(__global const Light* light, float distance) {
   return g > 1.0f ? 1.0f / g : 1.0f;
 }
 
-// The light's part of the radiance that leaves `f` against `d`. `medium` surrounds the ray.
+// The light's part of the radiance that leaves `f` against `d`. `media` surround the ray.
 static inline float3 lit_by(const Scene* s, GEOMETRY positions, __global const Light* light,
-                            const Surface* f, __global const Material* m, float3 d, uint medium) {
+                            const Surface* f, __global const Material* m, float3 d, Media media) {
   const bool is_point = light->kind == FACET_POINT_LIGHT;
   const float3 place = vec_global(light->position);
   float3 l = place;
@@ -60,9 +62,8 @@ static inline float3 lit_by(const Scene* s, GEOMETRY positions, __global const L
   const float3 step = f->geometric * f->delta;
   const float3 start = is_above ? f->p + step : f->p - step;
 #ifndef FACET_NO_TRANSPARENCY
-  const uint around = is_above ? medium : f->is_front && m->transparent ? f->material : FACET_NONE;
-#else
-  const uint around = FACET_NONE;
+  if (!is_above && m->transparent)
+    media = f->is_front ? entered(s, media, f->material) : left(media, f->material);
 #endif
   float3 direction = l;
   float distance = INFINITY;
@@ -71,7 +72,7 @@ static inline float3 lit_by(const Scene* s, GEOMETRY positions, __global const L
     distance = length3(way);
     direction = way / distance;
   }
-  const float3 t = transmittance(s, positions, start, direction, distance, is_point, around);
+  const float3 t = transmittance(s, positions, start, direction, distance, is_point, media);
   if (is_black(t)) return (float3)(0.0f);
 
   float3 reflected = vec_global(m->Kd) * facing;

@@ -39,7 +39,8 @@ __kernel void probe_surfaces(__global const World* world, __global const Node* n
   out->is_front = f.is_front;
   out->material = f.material;
 
-  PendingRay child = {o, d, (float3)(1.0f), 0u, f.is_front ? FACET_NONE : f.material};
+  PendingRay child = {o, d, (float3)(1.0f), 0u, no_media()};
+  if (!f.is_front) child.media.of[0] = f.material;
   PendingRay pending[FACET_RAY_STACK];
   uint waiting_count = 0u;
   if (branch(&s, &f, &materials[f.material], &child, pending, &waiting_count, 1u) != TRACE) return;
@@ -66,10 +67,12 @@ __kernel void probe_passages(__global const World* world, __global const Node* n
   const float3 o = vec_global(rays[i].origin), d = vec_global(rays[i].direction);
   const float distance = rays[i].tmax;
   const bool is_point = distance < INFINITY;
+  Media media = no_media();
+  media.of[0] = medium;
   const Query q = crossings(&s, positions, o, d, distance, is_point ? distance : 0.0f);
   __global Passage* out = &passages[i];
   out->is_dark = q.triangle != FACET_NONE;
   out->entries = q.entries;
   out->exits = q.exits;
-  put(out->transmittance, transmittance(&s, positions, o, d, distance, is_point, medium));
+  put(out->transmittance, transmittance(&s, positions, o, d, distance, is_point, media));
 }

@@ -19,7 +19,7 @@ typedef enum { TRACE, SHADE, ESCAPE, RESUME, DONE } State;
 typedef struct {
   float3 origin, direction, throughput;
   uint depth;
-  uint medium;  // the material around it, FACET_NONE outside of all
+  Media media;  // around it
 } PendingRay;
 
 // The direction behind the surface by Snell's law, or false at total internal reflection.
@@ -35,7 +35,8 @@ static inline bool refract3(float3 d, float3 n, float eta, float3* out) {
 static inline float3 reflect3(float3 d, float3 n) { return normalize3(d - n * (2.0f * dot3(n, d))); }
 
 // Replaces `ray` by the child to follow and pushes the other; RESUME if there is none. A
-// shading normal may send a child to the wrong side: the geometric one then takes its place.
+// shading normal may send a child to the wrong side: the geometric one then takes its place. At the
+// critical angle rounding may still keep a refracted ray from going behind: it is reflected.
 static inline State branch(const Scene* s, const Surface* f, __global const Material* m,
                            PendingRay* ray, PendingRay* pending, uint* count, uint max_depth) {
   if (ray->depth == max_depth) return RESUME;
@@ -51,16 +52,16 @@ static inline State branch(const Scene* s, const Surface* f, __global const Mate
   bool is_behind = false;
   if (m->transparent) {
     const float3 kt = vec_global(m->Kt);
-    const float around = ray->medium == FACET_NONE ? 1.0f : s->materials[ray->medium].Ni;
-    const float eta = f->is_front ? around / m->Ni : m->Ni;
+    float eta;
+    behind.media = crossed(s, ray->media, f->material, f->is_front, &eta);
     is_behind = refract3(d, f->shading, eta, &behind.direction);
     if (is_behind && !(dot3(behind.direction, f->geometric) < 0.0f))
-      is_behind = refract3(d, f->geometric, eta, &behind.direction);
+      is_behind = refract3(d, f->geometric, eta, &behind.direction) &&
+                  dot3(behind.direction, f->geometric) < 0.0f;
     if (is_behind) {
       behind.throughput = ray->throughput * kt;
       behind.origin = f->p - step;
       behind.depth = ray->depth + 1u;
-      behind.medium = f->is_front ? f->material : FACET_NONE;
       is_behind = !is_black(behind.throughput);
     } else {
       kr = kr + kt;
@@ -99,7 +100,7 @@ static inline float4 radiance(const Scene* s, GEOMETRY positions, GEOMETRY norma
                               float3 direction) {
   PendingRay pending[FACET_RAY_STACK];
   uint count = 0u;
-  PendingRay ray = {origin, direction, (float3)(1.0f), 0u, FACET_NONE};
+  PendingRay ray = {origin, direction, (float3)(1.0f), 0u, media_of(view->media)};
   float3 sum = (float3)(0.0f);
   float alpha = 1.0f;
   Query q;
@@ -117,16 +118,14 @@ static inline float4 radiance(const Scene* s, GEOMETRY positions, GEOMETRY norma
         break;
       case SHADE: {
 #ifndef FACET_NO_TRANSPARENCY
-        if (ray.medium != FACET_NONE) {
-          const float3 sigma = vec_global(s->materials[ray.medium].sigma);
-          ray.throughput = ray.throughput * exp(-(sigma * q.t));
-        }
+        if (!is_empty(ray.media))
+          ray.throughput = ray.throughput * exp(-(absorption(s, ray.media) * q.t));
 #endif
         const Surface f = surface_at(s, positions, normals, &q, ray.direction);
         __global const Material* m = &s->materials[f.material];
         sum = sum + ray.throughput * (vec_global(m->Ke) + vec_global(m->Ka) * vec_global(view->ambient));
         for (uint i = 0; i < view->light_count; ++i)
-          sum = sum + ray.throughput * lit_by(s, positions, &lights[i], &f, m, ray.direction, ray.medium);
+          sum = sum + ray.throughput * lit_by(s, positions, &lights[i], &f, m, ray.direction, ray.media);
         state = branch(s, &f, m, &ray, pending, &count, view->max_depth);
         break;
       }

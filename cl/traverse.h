@@ -253,7 +253,7 @@ static inline Query traverse_to(const Scene* s, GEOMETRY positions, float3 o, fl
     atomic_inc(&s->faults->refused);
     return q;
   }
-  if (s->instance_count == 0u) return q;
+  if (s->triangle_count == 0u) return q;
   search(s, positions, o, d, start, mode, &space, &q);
   return q;
 }

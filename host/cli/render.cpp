@@ -83,11 +83,13 @@ picture render_serial(const arguments& o, const scene& s, picture_shape p,
   const auto start = clock::now();
   std::uint64_t done = 0;
   progress_bar bar("rendering", o.say.quiet);
-  picture result =
-      tracer.render(p.width, p.height, p.max_depth, [&](std::uint64_t now, std::uint64_t total) {
+  picture result = tracer.render(
+      p.width, p.height, p.max_depth,
+      [&](std::uint64_t now, std::uint64_t total) {
         bar.update(done = now, total);
         return !interrupt_flag().load();
-      });
+      },
+      &stats.crowded);
   const std::uint64_t total = std::uint64_t(p.width) * p.height;
   if (done < total) interrupted_at(o, done, total);
   stats.wall_ms = milliseconds_since(start);
@@ -115,6 +117,18 @@ picture render_on_device(const arguments& o, const scene& s, picture_shape p,
   } catch (const tracer::cancelled& c) {
     interrupted_at(o, c.done, c.total);
   }
+}
+
+/// What the picture lacks, if anything.
+void say_faults(const console& say, const scene& s, const tracer::statistics& stats) {
+  if (stats.refused > 0)
+    say.say("note: " + std::to_string(stats.refused) +
+            " rays were out of range or not finite, and meet nothing");
+  if (stats.crowded > 0)
+    say.say("note: " + std::to_string(stats.crowded) +
+            " times a ray entered a transparent object within " + std::to_string(s.nesting) +
+            " others, and forgot the outermost; the scene's \"nesting\" may be up to " +
+            std::to_string(limits::nesting));
 }
 
 void check_outputs(const arguments& o) {
@@ -159,6 +173,7 @@ int run(const arguments& o) {
     o.say.detail("geometry: " + stats.geometry + "; features: " + stats.features +
                  "; work-group: " + std::to_string(stats.group_width) + "x" +
                  std::to_string(stats.group_height));
+  say_faults(o.say, s, stats);
   write_picture_file(o.out, result, o.transfer);
   if (!o.stats.empty()) write_stats(o, p, stats);
   o.say.say("wrote " + o.out + ", " + std::to_string(p.width) + "x" + std::to_string(p.height) +

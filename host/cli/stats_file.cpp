@@ -23,6 +23,7 @@ nlohmann::ordered_json to_json(const tracer::statistics& s) {
           {"driver", s.driver},
           {"rays", s.rays},
           {"refused", s.refused},
+          {"crowded", s.crowded},
           {"kernel_ms", kernel_ms},
           {"kernel_ms_all", s.kernel_ms},
           {"mrays_per_s", kernel_ms > 0 ? double(s.rays) / kernel_ms / 1000 : 0},

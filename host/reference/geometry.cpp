@@ -5,6 +5,7 @@
 #include <span>
 
 #include "reference/visit.hpp"
+#include "scene/shut.hpp"
 #include "scene/world_bounds.hpp"
 
 namespace facet::reference {
@@ -28,12 +29,13 @@ box3f outward(const box3<T>& b) {
 
 }  // namespace
 
-mesh_tree::mesh_tree(const mesh& m) : bounds(m.bounds()), extent(extent_of(bounds)) {
+mesh_tree::mesh_tree(const mesh& m)
+    : bounds(m.bounds()), extent(extent_of(bounds)), is_shut(shut_triangles(m)) {
   std::vector<box3f> boxes;
   std::vector<std::uint32_t> owners;
   for (std::uint32_t i = 0; i < m.triangle_count(); ++i) {
+    if (is_shut[i]) continue;
     const corners<float> p{m.position(i, 0), m.position(i, 1), m.position(i, 2)};
-    if (!has_area(p)) continue;
     boxes.push_back(bounds_of(p));
     owners.push_back(i);
   }

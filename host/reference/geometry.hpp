@@ -21,7 +21,8 @@ struct alignas(32) triangle_block {
 
 struct mesh_tree {
   box3f bounds;
-  vec3f extent;  ///< the largest |coordinate| by axis
+  vec3f extent;               ///< the largest |coordinate| by axis
+  std::vector<bool> is_shut;  ///< by triangle: scene/shut.hpp
   wide_tree tree;
   std::vector<triangle_block> blocks;  ///< by leaf; NaN corners where there is no triangle
 

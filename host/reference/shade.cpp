@@ -76,14 +76,24 @@ void shader<T>::path::note(std::uint64_t value) {
 
 template <class T>
 typename shader<T>::result shader<T>::trace(const vec3<T>& origin, const vec3<T>& direction,
+                                            std::span<const std::uint32_t> around,
                                             std::uint32_t max_depth) const {
   path p{max_depth, {}};
-  const bool hit = shade(p, origin, direction, {1, 1, 1}, 0, no_medium);
-  return {p.sum, hit, p.signature};
+  media start(scene_.nesting);
+  for (auto k = around.rbegin(); k != around.rend(); ++k) start.enter(*k);
+  const bool hit = shade(p, origin, direction, {1, 1, 1}, 0, start);
+  return {p.sum, hit, p.crowded, p.signature};
 }
 
 template <class T>
-passage<T> shader<T>::pass(const ray<T>& r, std::uint32_t medium, road by) const {
+media shader<T>::within(std::uint32_t material) const {
+  media m(scene_.nesting);
+  if (material != miss) m.enter(material);
+  return m;
+}
+
+template <class T>
+passage<T> shader<T>::pass(const ray<T>& r, const media& around, road by) const {
   constexpr std::uint64_t opaque = ~std::uint64_t(0);
   if (!any_transparent_)
     return geometry_.occluded(r, by) ? passage<T>{{0, 0, 0}, opaque} : passage<T>{};
@@ -92,7 +102,7 @@ passage<T> shader<T>::pass(const ray<T>& r, std::uint32_t medium, road by) const
   const T end = r.tmax < infinity<T> ? r.tmax : 0;
   passage<T> p;
   optical_depth<T> depth;
-  if (medium != no_medium) depth.add(matter_[medium].sigma * end);
+  for (const std::uint32_t k : around.all()) depth.add(matter_[k].sigma * end);
   const bool dark = geometry_.visit(r, r.tmax, by, [&](const candidate<T>& c) {
     const triangle_test<T> test = c.test();
     const auto h = test.accept(c.outer(), tmin, r.tmax);
@@ -114,7 +124,7 @@ passage<T> shader<T>::pass(const ray<T>& r, std::uint32_t medium, road by) const
 
 template <class T>
 void shader<T>::light_up(path& p, const lamp& l, const surface<T>& s, std::uint32_t material,
-                         const vec3<T>& d, const vec3<T>& throughput, std::uint32_t medium) const {
+                         const vec3<T>& d, const vec3<T>& throughput, const media& around) const {
   const matter& m = matter_[material];
 
   vec3<T> towards = l.towards;
@@ -131,13 +141,19 @@ void shader<T>::light_up(path& p, const lamp& l, const surface<T>& s, std::uint3
 
   const bool same_side = dot(s.geometric, towards) > 0;
   ray<T> shadow{same_side ? s.near_side() : s.far_side(), 0, towards, infinity<T>};
-  if (!same_side) medium = s.front && m.transparent ? material : no_medium;
+  media at_start = around;
+  if (!same_side && m.transparent) {
+    if (s.front)
+      at_start.enter(material);
+    else
+      at_start.leave(material);
+  }
   if (l.is_point) {
     const vec3<T> way = l.position - shadow.origin;
     shadow.tmax = length(way);
     shadow.direction = way / shadow.tmax;
   }
-  const passage<T> way = pass(shadow, medium, road::tree);
+  const passage<T> way = pass(shadow, at_start, road::tree);
   p.note(way.met + (same_side ? 1 : 2));
   if (way.is_dark()) return;
 
@@ -153,41 +169,60 @@ void shader<T>::light_up(path& p, const lamp& l, const surface<T>& s, std::uint3
 /// Adds what comes along the ray to the sum; true if the ray hits anything.
 template <class T>
 bool shader<T>::shade(path& p, const vec3<T>& o, const vec3<T>& d, vec3<T> throughput,
-                      std::uint32_t depth, std::uint32_t medium) const {
+                      std::uint32_t depth, const media& around) const {
   const hit<T> h = geometry_.closest({o, 0, d, infinity<T>}, road::tree);
   p.note(std::uint64_t(h.instance) << 32 | h.triangle);
   if (!h) {
     p.sum = p.sum + throughput * vec3<T>(scene_.background);
     return false;
   }
-  if (medium != no_medium) throughput = throughput * exp(-matter_[medium].sigma * h.t);
+  if (!around.empty()) {
+    vec3<T> sigma;
+    for (const std::uint32_t k : around.all()) sigma = sigma + matter_[k].sigma;
+    throughput = throughput * exp(-sigma * h.t);
+  }
 
   const std::uint32_t material = material_of(h.instance, h.triangle);
   const matter& m = matter_[material];
   const surface<T> s = surface_at(geometry_, h, d);
-  p.note(std::uint64_t(depth) << 33 | std::uint64_t(medium) << 1 | (s.front ? 1 : 0));
+  p.note(std::uint64_t(depth) << 33 |
+         std::uint64_t(around.empty() ? miss : around.innermost()) << 1 | (s.front ? 1 : 0));
   p.sum = p.sum + throughput * (m.Ke + m.Ka * vec3<T>(scene_.ambient));
-  for (const lamp& l : lamps_) light_up(p, l, s, material, d, throughput, medium);
+  for (const lamp& l : lamps_) light_up(p, l, s, material, d, throughput, around);
   if (depth == p.max_depth) return true;
 
   vec3<T> kr = m.Kr;
   std::optional<vec3<T>> inward;
+  media behind = around;
   if (m.transparent) {
-    const T outside = s.front && medium != no_medium ? matter_[medium].Ni : T(1);
-    const T eta = s.front ? outside / m.Ni : m.Ni / outside;
+    const auto index = [&](const media& in) {
+      return in.empty() ? T(1) : matter_[in.innermost()].Ni;
+    };
+    // Leaving an object that another one displaces bends nothing.
+    const bool is_displaced = around.holds(material) && around.innermost() != material;
+    T eta;
+    if (s.front) {
+      eta = index(around) / m.Ni;
+      p.crowded += !behind.enter(material);
+    } else {
+      behind.leave(material);
+      eta = (is_displaced ? index(around) : m.Ni) / index(behind);
+    }
     inward = refract(d, s.shading, eta);
     // A shading normal can bend the ray to the wrong side; the geometric one cannot.
     if (inward && !(dot(*inward, s.geometric) < 0)) inward = refract(d, s.geometric, eta);
+    // Nor can it at the critical angle, where the root is 0 but for rounding: that is reflection.
+    if (inward && !(dot(*inward, s.geometric) < 0)) inward.reset();
     if (!inward) kr = kr + m.Kt;
     p.note(inward ? 3 : 4);
   }
   if (const vec3<T> left = throughput * kr; !is_black(left)) {
     vec3<T> r = reflect(d, s.shading);
     if (!(dot(r, s.geometric) > 0)) r = reflect(d, s.geometric);
-    shade(p, s.near_side(), r, left, depth + 1, medium);
+    shade(p, s.near_side(), r, left, depth + 1, around);
   }
   if (const vec3<T> left = throughput * m.Kt; inward && !is_black(left))
-    shade(p, s.far_side(), *inward, left, depth + 1, s.front ? material : no_medium);
+    shade(p, s.far_side(), *inward, left, depth + 1, behind);
   return true;
 }
 

@@ -3,15 +3,15 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "reference/geometry.hpp"
+#include "reference/media.hpp"
 #include "reference/surface.hpp"
 #include "scene/scene.hpp"
 
 namespace facet::reference {
-
-inline constexpr std::uint32_t no_medium = 0xffffffffu;
 
 /// What is left of a light's colour on the way to it.
 template <class T>
@@ -30,13 +30,19 @@ class shader {
   struct result {
     vec3<T> radiance;
     bool hit = false;             ///< of the eye ray
+    std::uint64_t crowded = 0;    ///< objects entered beyond scene::nesting
     std::uint64_t signature = 0;  ///< of the whole tree of rays: which surfaces in which state
   };
-  result trace(const vec3<T>& origin, const vec3<T>& direction, std::uint32_t max_depth) const;
+  /// `around` are the materials of the media around the origin, innermost first.
+  result trace(const vec3<T>& origin, const vec3<T>& direction,
+               std::span<const std::uint32_t> around, std::uint32_t max_depth) const;
 
-  /// Light passing along r, whose origin lies in `medium`; `r.tmax` is the distance of the light,
+  /// Light passing along r, whose origin lies in `around`; `r.tmax` is the distance of the light,
   /// or infinite. Each surface dims by Kt, each way inside by Beer-Lambert; opaque ones by all.
-  passage<T> pass(const ray<T>& r, std::uint32_t medium, road by) const;
+  passage<T> pass(const ray<T>& r, const media& around, road by) const;
+
+  /// In one object of that material, or in none (miss).
+  media within(std::uint32_t material) const;
 
  private:
   /// A material in the scalar, with the logarithms that ways through it are summed in.
@@ -55,15 +61,15 @@ class shader {
   struct path {
     std::uint32_t max_depth;
     vec3<T> sum;
-    std::uint64_t signature = 0;
+    std::uint64_t crowded = 0, signature = 0;
 
     void note(std::uint64_t value);
   };
 
   bool shade(path& p, const vec3<T>& o, const vec3<T>& d, vec3<T> throughput, std::uint32_t depth,
-             std::uint32_t medium) const;
+             const media& around) const;
   void light_up(path& p, const lamp& l, const surface<T>& s, std::uint32_t material,
-                const vec3<T>& d, const vec3<T>& throughput, std::uint32_t medium) const;
+                const vec3<T>& d, const vec3<T>& throughput, const media& around) const;
   std::uint32_t material_of(std::uint32_t instance, std::uint32_t triangle) const;
 
   const scene& scene_;

@@ -5,6 +5,7 @@
 #include "reference/geometry.hpp"
 #include "reference/shade.hpp"
 #include "reference/visit.hpp"
+#include "scene/media.hpp"
 
 namespace facet::reference {
 namespace {
@@ -35,7 +36,18 @@ struct tracer<T>::state {
   geometry<T> world;
   shader<T> light;
 
-  explicit state(const scene& s) : source(s), world(s), light(s, world) {}
+  std::vector<std::uint32_t> around_camera;  ///< innermost first
+
+  explicit state(const scene& s)
+      : source(s), world(s), light(s, world), around_camera(media_at(s, s.view.position)) {}
+
+  /// Along one eye ray of a film, which need not be that of the scene's camera.
+  auto trace(const film<T>& f, T x, T y, std::uint32_t max_depth) const {
+    const vec3<T> direction = f.through(x, y).direction;
+    if (f.origin == vec3<T>(source.view.position))
+      return light.trace(f.origin, direction, around_camera, max_depth);
+    return light.trace(f.origin, direction, media_at(source, vec3d(f.origin)), max_depth);
+  }
 };
 
 template <class T>
@@ -75,29 +87,31 @@ std::vector<crossing<T>> tracer<T>::crossings_brute(const ray<T>& r) const {
 
 template <class T>
 vec3<T> tracer<T>::transmittance(const ray<T>& r, std::uint32_t medium) const {
-  return state_->light.pass(r, medium, road::tree).colour;
+  return state_->light.pass(r, state_->light.within(medium), road::tree).colour;
 }
 template <class T>
 vec3<T> tracer<T>::transmittance_brute(const ray<T>& r, std::uint32_t medium) const {
-  return state_->light.pass(r, medium, road::brute_force).colour;
+  return state_->light.pass(r, state_->light.within(medium), road::brute_force).colour;
 }
 
 template <class T>
 std::array<T, 4> tracer<T>::pixel(const film<T>& f, T x, T y, std::uint32_t max_depth) const {
-  const auto [c, hit, signature] =
-      state_->light.trace(f.origin, f.through(x, y).direction, max_depth);
-  return {c.x, c.y, c.z, hit ? T(1) : T(state_->source.background_alpha)};
+  const auto r = state_->trace(f, x, y, max_depth);
+  const vec3<T>& c = r.radiance;
+  return {c.x, c.y, c.z, r.hit ? T(1) : T(state_->source.background_alpha)};
 }
 
 template <class T>
 std::uint64_t tracer<T>::signature(const film<T>& f, T x, T y, std::uint32_t max_depth) const {
-  return state_->light.trace(f.origin, f.through(x, y).direction, max_depth).signature;
+  return state_->trace(f, x, y, max_depth).signature;
 }
 
 template <class T>
 picture tracer<T>::render(std::uint32_t width, std::uint32_t height, std::uint32_t max_depth,
-                          const progress& on_progress) const {
+                          const progress& on_progress, std::uint64_t* crowded) const {
   const scene& source = state_->source;
+  check_camera_media(source, state_->around_camera);
+  if (crowded) *crowded = 0;
   const film<T> f(frame_of(source.view, width, height));
   const std::uint32_t n = source.samples;
   picture out(width, height);
@@ -108,9 +122,10 @@ picture tracer<T>::render(std::uint32_t width, std::uint32_t height, std::uint32
       for (std::uint32_t j = 0; j < n; ++j)
         for (std::uint32_t i = 0; i < n; ++i) {
           const T sx = T(x) + (T(i) + T(0.5)) / T(n), sy = T(y) + (T(j) + T(0.5)) / T(n);
-          const auto r = state_->light.trace(f.origin, f.through(sx, sy).direction, max_depth);
+          const auto r = state_->trace(f, sx, sy, max_depth);
           sum = sum + r.radiance;
           alpha += r.hit ? T(1) : T(source.background_alpha);
+          if (crowded) *crowded += r.crowded;
         }
       const T rays = T(n * n);
       const vec3<T> colour = sum / rays;

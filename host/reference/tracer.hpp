@@ -67,8 +67,10 @@ class tracer {
 
   /// The scene's camera, samples * samples rays a pixel. A pixel not reached before `on_progress`
   /// returned false is 0 in all channels.
+  /// `crowded`, if given, becomes how often a ray entered a transparent object while it was in
+  /// scene::nesting of them. Throws scene_error if the camera is in more.
   picture render(std::uint32_t width, std::uint32_t height, std::uint32_t max_depth,
-                 const progress& on_progress = {}) const;
+                 const progress& on_progress = {}, std::uint64_t* crowded = nullptr) const;
 
  private:
   struct state;

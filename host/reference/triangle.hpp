@@ -19,15 +19,6 @@ box3<T> bounds_of(const corners<T>& p) {
   return {min(min(p[0], p[1]), p[2]), max(max(p[0], p[1]), p[2])};
 }
 
-/// Triangles without an area are never hit, though rounding may open them to a ray. Corners are
-/// floats: on one line this cross product is 0, whatever the line, unless their sizes differ by
-/// more than 2^28.
-template <class T>
-bool has_area(const corners<T>& p) {
-  const vec3d a(p[0]), b(p[1]), c(p[2]);
-  return cross(b - a, c - a) != vec3d();
-}
-
 /// A corner seen along the ray: the ray runs along +z through the origin of x and y.
 template <class T>
 struct sheared {

@@ -51,8 +51,9 @@ bool geometry<T>::visit(const ray<T>& r, const T& limit, road by, Visit&& v) con
     const space<T>& object = p.is_plain ? world : moved;
     if (by == road::brute_force) {
       for (std::uint32_t i = 0; i < scene_.meshes[mesh_id].triangle_count(); ++i) {
+        if (m.is_shut[i]) continue;
         const candidate<T> c{world, object, p, instance, i, corners_of(instance, i)};
-        if (has_area(c.corner) && v(c)) return true;
+        if (v(c)) return true;
       }
       return false;
     }

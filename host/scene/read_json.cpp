@@ -174,6 +174,7 @@ scene read_json(const std::filesystem::path& path) {
   if (const auto v = root.find("camera")) s.view = read_camera(*v);
   if (const auto v = root.find("ambient")) s.ambient = v->colour();
   if (const auto v = root.find("background")) read_background(*v, s);
+  if (const auto v = root.find("nesting")) s.nesting = v->whole(1, limits::nesting);
   if (const auto v = root.find("lights")) read_lights(*v, s);
 
   name_table materials("material"), meshes("mesh");

@@ -24,6 +24,7 @@ inline constexpr std::size_t scene_file = 256u << 20;  ///< bytes of a .json fil
 inline constexpr std::uint32_t image_side = 32768;
 inline constexpr std::uint32_t max_depth = 64;
 inline constexpr std::uint32_t samples = 16;  ///< a side of a pixel
+inline constexpr std::uint32_t nesting = 8;   ///< transparent objects within one another
 }  // namespace limits
 
 /// A pinhole camera. The picture's vertical angle is `vertical_fov`; x grows to the right.
@@ -67,7 +68,11 @@ struct scene {
   std::uint32_t width = 800, height = 600;  ///< the picture's size unless told otherwise
   std::uint32_t max_depth = 5;  ///< bounces: 0 traces eye rays (and their shadows) alone
   std::uint32_t samples = 1;    ///< a side of the regular grid in a pixel: n means n*n rays
-  vec3f ambient{0, 0, 0};       ///< Ia
+  /// How many transparent objects a point may lie in at once; 1: none lies within another. Light is
+  /// bent as if the innermost displaced the others, and dimmed by all. A ray that enters more
+  /// forgets the outermost, and is counted.
+  std::uint32_t nesting = 1;
+  vec3f ambient{0, 0, 0};  ///< Ia
   vec3f background{0, 0, 0};
   float background_alpha = 1;
   std::vector<material> materials;  ///< never empty in a valid scene

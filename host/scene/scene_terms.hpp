@@ -16,8 +16,8 @@ struct scene_term {
 inline const std::vector<scene_term>& scene_terms() {
   static const std::vector<scene_term> terms{
       {"scene",
-       {"$schema", "about", "camera", "picture", "ambient", "background", "materials", "meshes",
-        "instances", "lights"}},
+       {"$schema", "about", "camera", "picture", "ambient", "background", "nesting", "materials",
+        "meshes", "instances", "lights"}},
       {"camera", {"position", "look_at", "up", "vertical_fov"}},
       {"picture", {"width", "height", "max_depth", "samples"}},
       {"material",

@@ -32,6 +32,7 @@ class checker {
     whole("/picture/height", scene_.height, 1, limits::image_side);
     whole("/picture/max_depth", scene_.max_depth, 0, limits::max_depth);
     whole("/picture/samples", scene_.samples, 1, limits::samples);
+    whole("/nesting", scene_.nesting, 1, limits::nesting);
     at_least_0("/ambient", scene_.ambient);
     at_least_0("/background", scene_.background);
     if (!(scene_.background_alpha >= 0 && scene_.background_alpha <= 1))

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/shut.hpp"
 #include "scene/world_bounds.hpp"
 
 namespace facet::tracer {
@@ -56,19 +57,11 @@ Light pack_light(const light& l) {
   return p;
 }
 
-/// False where the corners lie on one line: exact, as differences and products of floats fit a
-/// double unless their sizes differ by more than 2^28.
-bool has_area(const mesh& m, std::size_t t) {
-  const vec3d a(m.position(t, 0)), b(m.position(t, 1)), c(m.position(t, 2));
-  return cross(b - a, c - a) != vec3d();
-}
-
 void pack_mesh(const mesh& m, bool with_normals, packed_scene& to) {
+  const std::vector<bool> is_shut = shut_triangles(m);
   for (std::size_t t = 0; t < m.triangle_count(); ++t) {
-    // A triangle without an area is never hit. Rounding might open it to a ray: as a point it is
-    // shut, and keeps its index.
-    const bool is_open = has_area(m, t);
-    for (int c = 0; c < 3; ++c) to.corners.push_back(texel_of(m.position(t, is_open ? c : 0)));
+    // As a point a triangle is never met, and keeps its index.
+    for (int c = 0; c < 3; ++c) to.corners.push_back(texel_of(m.position(t, is_shut[t] ? 0 : c)));
     if (with_normals)
       for (int c = 0; c < 3; ++c)
         to.normals.push_back(m.is_smooth() ? texel_of(m.normal(t, c)) : texel{});
@@ -103,6 +96,7 @@ packed_scene pack(const scene& s, bool with_normals) {
   for (std::size_t k = 0; k < s.instances.size(); ++k) {
     const instance& i = s.instances[k];
     const packed_mesh& m = p.meshes[i.mesh];
+    if (m.triangle_count == 0) continue;
     Instance q{};
     put(q.world_from_object, i.world_from_object);
     put(q.object_from_world, i.world_from_object.inverse());
@@ -126,7 +120,8 @@ packed_scene pack(const scene& s, bool with_normals) {
   return p;
 }
 
-View pack_view(const scene& s, std::uint32_t width, std::uint32_t height, std::uint32_t max_depth) {
+View pack_view(const scene& s, const std::vector<std::uint32_t>& media, std::uint32_t width,
+               std::uint32_t height, std::uint32_t max_depth) {
   const camera_frame f = frame_of(s.view, width, height);
   View v{};
   put(v.origin, f.origin), put(v.corner, f.corner), put(v.dx, f.dx), put(v.dy, f.dy);
@@ -138,6 +133,8 @@ View pack_view(const scene& s, std::uint32_t width, std::uint32_t height, std::u
   v.background_alpha = s.background_alpha;
   put(v.ambient, s.ambient);
   v.light_count = std::uint32_t(s.lights.size());
+  std::fill(std::begin(v.media), std::end(v.media), FACET_NONE);
+  std::copy(media.begin(), media.end(), v.media);
   return v;
 }
 

@@ -26,7 +26,8 @@ struct packed_scene {
   std::vector<texel> normals;
   std::vector<std::uint32_t> triangle_materials;  ///< 1 a triangle
   std::vector<packed_mesh> meshes;
-  /// In scene order; `root` is set once the trees are built.
+  /// In scene order, those of meshes without triangles left out; `root` is set once the trees are
+  /// built.
   std::vector<Instance> instances;
   std::vector<std::uint32_t> instance_meshes;  ///< index into `meshes`, 1 an instance
   std::vector<Material> materials;
@@ -37,7 +38,9 @@ struct packed_scene {
 /// The scene must be valid (scene/validate.hpp). Meshes that no instance shows are packed as empty.
 packed_scene pack(const scene& s, bool with_normals);
 
-/// The camera and surroundings of a picture. Throws scene_error if the camera is degenerate.
-View pack_view(const scene& s, std::uint32_t width, std::uint32_t height, std::uint32_t max_depth);
+/// The camera and surroundings of a picture; `media` are those around the camera
+/// (scene/media.hpp). Throws scene_error if the camera is degenerate.
+View pack_view(const scene& s, const std::vector<std::uint32_t>& media, std::uint32_t width,
+               std::uint32_t height, std::uint32_t max_depth);
 
 }  // namespace facet::tracer

@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "scene/error.hpp"
+#include "scene/media.hpp"
 #include "tracer/state.hpp"
 
 namespace facet::tracer {
@@ -81,7 +82,8 @@ picture device_scene::render(std::uint32_t width, std::uint32_t height, std::uin
                              const std::atomic<bool>* cancel) {
   check_size(width, height, max_depth);
   state& s = *state_;
-  const View view = pack_view(s.model, width, height, max_depth);
+  check_camera_media(s.model, s.camera_media);
+  const View view = pack_view(s.model, s.camera_media, width, height, max_depth);
   const std::uint32_t w = s.chosen.group_width ? s.chosen.group_width : s.tuned.render_group_width;
   const std::uint32_t h =
       s.chosen.group_height ? s.chosen.group_height : s.tuned.render_group_height;
@@ -138,7 +140,9 @@ picture device_scene::render(std::uint32_t width, std::uint32_t height, std::uin
     stats->group_width = w;
     stats->group_height = h;
     stats->tiles = tiles;
-    stats->refused = s.read_faults().refused;
+    const Faults faults = s.read_faults();
+    stats->refused = faults.refused;
+    stats->crowded = faults.crowded;
     stats->wall_ms =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   }

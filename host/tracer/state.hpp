@@ -18,6 +18,7 @@ struct device_scene::state {
   bool in_images = false;
   runtime::source_tree kernels;
   scene model;  ///< without its meshes: camera, lights and limits of later pictures
+  std::vector<std::uint32_t> camera_media;  ///< around the camera, innermost first
   device_geometry geometry;
   runtime::buffer<Light> lights;
   runtime::buffer<Faults> faults;

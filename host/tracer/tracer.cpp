@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "scene/media.hpp"
 #include "tracer/pack.hpp"
 #include "tracer/state.hpp"
 
@@ -17,6 +18,8 @@ scene without_meshes(const scene& s) {
   shell.ambient = s.ambient;
   shell.background = s.background;
   shell.background_alpha = s.background_alpha;
+  shell.nesting = s.nesting;
+  shell.materials = s.materials;
   shell.lights = s.lights;
   return shell;
 }
@@ -55,10 +58,10 @@ device_scene::device_scene(runtime::queue queue, const scene& s, options o) {
   runtime::buffer<Light> lights = light_buffer(packed.lights);
   device_geometry geometry =
       build_geometry(queue, kernels, std::move(packed), used, o.tree, in_images, tuned);
-  state_ = std::make_unique<state>(state{queue, std::move(o), tuned, used, in_images,
-                                         std::move(kernels), without_meshes(s), std::move(geometry),
-                                         std::move(lights), runtime::buffer<Faults>(1),
-                                         std::nullopt, std::nullopt, std::nullopt, 0});
+  state_ = std::make_unique<state>(
+      state{queue, std::move(o), tuned, used, in_images, std::move(kernels), without_meshes(s),
+            media_at(s, s.view.position), std::move(geometry), std::move(lights),
+            runtime::buffer<Faults>(1), std::nullopt, std::nullopt, std::nullopt, 0});
 }
 
 device_scene::~device_scene() = default;
@@ -67,17 +70,17 @@ device_scene& device_scene::operator=(device_scene&&) noexcept = default;
 
 runtime::kernel device_scene::state::trace_kernel(bool any) {
   if (!trace_program)
-    trace_program =
-        compiled(queue, kernels, "trace.cl",
-                 traversal_options(used, chosen.tree, in_images, geometry.stack, 0, tuned));
+    trace_program = compiled(
+        queue, kernels, "trace.cl",
+        traversal_options(used, model.nesting, chosen.tree, in_images, geometry.stack, 0, tuned));
   return trace_program->get_kernel(any ? "trace_any" : "trace_closest");
 }
 
 runtime::kernel device_scene::state::render_kernel(std::uint32_t max_depth) {
   if (!render_program || render_stack < max_depth) {
-    render_program =
-        compiled(queue, kernels, "render.cl",
-                 traversal_options(used, chosen.tree, in_images, geometry.stack, max_depth, tuned));
+    render_program = compiled(queue, kernels, "render.cl",
+                              traversal_options(used, model.nesting, chosen.tree, in_images,
+                                                geometry.stack, max_depth, tuned));
     render_stack = max_depth;
   }
   return render_program->get_kernel("render");
@@ -86,9 +89,9 @@ runtime::kernel device_scene::state::render_kernel(std::uint32_t max_depth) {
 runtime::kernel device_scene::state::probe_kernel(const char* name) {
   constexpr std::uint32_t one_bounce = 1;
   if (!probe_program)
-    probe_program = compiled(
-        queue, kernels, "probe.cl",
-        traversal_options(used, chosen.tree, in_images, geometry.stack, one_bounce, tuned));
+    probe_program = compiled(queue, kernels, "probe.cl",
+                             traversal_options(used, model.nesting, chosen.tree, in_images,
+                                               geometry.stack, one_bounce, tuned));
   return probe_program->get_kernel(name);
 }
 

@@ -93,6 +93,8 @@ struct statistics {
   /// Rays, of the last repeat, that could not be used: not finite, or out of range
   /// (cl/triangle.h: space_of). They meet nothing.
   std::uint64_t refused = 0;
+  /// Times that a ray entered a transparent object while it was in scene::nesting of them.
+  std::uint64_t crowded = 0;
 };
 
 /// Called after each tile with done and total pixels.

@@ -197,8 +197,7 @@ TEST_CASE("angles around the critical one give finite colours between black and 
   const double critical = std::asin(1 / 1.5);
   for (int i = -50; i <= 50; ++i) {
     const double a = critical + i * 1e-8;
-    // From inside: the medium is then none, as for an eye in the glass, but the way out is the
-    // same.
+    // From inside the glass.
     const vec3f c = seen<float>(s, {0, 0, 0}, {std::sin(a), 0, std::cos(a)}, 6);
     CHECK(c.x >= 0);
     CHECK(c.x <= 1.00001f);

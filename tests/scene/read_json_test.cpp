@@ -67,7 +67,7 @@ TEST_CASE("every key arrives where it belongs") {
     "$schema": "facet-scene.schema.json", "about": "all there is",
     "camera": {"position": [1, 2, 3], "look_at": [4, 5, 6], "up": [0, 0, 1], "vertical_fov": 33},
     "picture": {"width": 320, "height": 200, "max_depth": 7, "samples": 3},
-    "ambient": [0.1, 0.2, 0.3], "background": [0.4, 0.5, 0.6, 0.7],
+    "ambient": [0.1, 0.2, 0.3], "background": [0.4, 0.5, 0.6, 0.7], "nesting": 4,
     "materials": {"m": {"Ke": 1, "Ka": [2, 3, 4], "Kd": 0.5, "Ks": 0.25, "Ns": 9, "Kr": 0.125,
                         "Kt": [1, 0, 0.5], "Ni": 1.5, "attenuation": 0.75,
                         "attenuation_distance": 2}},
@@ -86,6 +86,7 @@ TEST_CASE("every key arrives where it belongs") {
   CHECK(s.ambient == vec3f(0.1f, 0.2f, 0.3f));
   CHECK(s.background == vec3f(0.4f, 0.5f, 0.6f));
   CHECK(s.background_alpha == 0.7f);
+  CHECK(s.nesting == 4);
   REQUIRE(s.materials.size() == 1);
   const facet::material& m = s.materials[0];
   CHECK(m.Ke == vec3f(1, 1, 1));

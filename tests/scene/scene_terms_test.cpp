@@ -83,6 +83,8 @@ TEST_CASE("limits and defaults of the schema are those of the scene model") {
   CHECK(picture.at("height").at("default") == s.height);
   CHECK(picture.at("max_depth").at("default") == s.max_depth);
   CHECK(picture.at("samples").at("default") == s.samples);
+  CHECK(scene_schema().at("properties").at("nesting").at("maximum") == facet::limits::nesting);
+  CHECK(scene_schema().at("properties").at("nesting").at("default") == s.nesting);
   CHECK(scene_schema().at("properties").at("lights").at("maxItems") == facet::limits::lights);
   CHECK(scene_schema().at("properties").at("instances").at("maxItems") == facet::limits::instances);
   CHECK(definitions.at("camera").at("properties").at("vertical_fov").at("default") ==

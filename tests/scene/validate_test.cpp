@@ -60,6 +60,8 @@ TEST_CASE("the picture stays within the limits") {
   CHECK(fault([](scene& s) { s.width = 0; }) == "/picture/width");
   CHECK(fault([](scene& s) { s.height = 32769; }) == "/picture/height");
   CHECK(fault([](scene& s) { s.max_depth = 65; }) == "/picture/max_depth");
+  CHECK(fault([](scene& s) { s.nesting = 0; }) == "/nesting");
+  CHECK(fault([](scene& s) { s.nesting = 9; }) == "/nesting");
   CHECK(fault([](scene& s) { s.samples = 0; }) == "/picture/samples");
   CHECK(fault([](scene& s) { s.samples = 17; }) == "/picture/samples");
   scene s = good();

@@ -99,5 +99,5 @@ TEST_CASE("a triangle without an area becomes a point and keeps its place") {
 TEST_CASE("a degenerate camera is refused") {
   scene s = test::one_mesh(generate("box", {}));
   s.view.look_at = s.view.position;
-  CHECK_THROWS_AS(pack_view(s, 10, 10, 1), scene_error);
+  CHECK_THROWS_AS(pack_view(s, {}, 10, 10, 1), scene_error);
 }
