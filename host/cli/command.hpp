@@ -18,6 +18,7 @@ enum exit_code : int {
   memory = 5,
   output = 6,
   nan = 7,
+  unmet = 8,  ///< a case of `facet accuracy` does not meet its goal
   interrupted = 130,
 };
 
@@ -33,5 +34,6 @@ command add_trace(CLI::App& program);
 command add_devices(CLI::App& program);
 command add_info(CLI::App& program);
 command add_compare(CLI::App& program);
+command add_accuracy(CLI::App& program);
 
 }  // namespace facet::cli

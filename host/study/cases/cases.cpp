@@ -16,7 +16,7 @@ constexpr std::array<hard_case, 26> table{{
     {3, "closed mesh, rays along edges", true, closed_edges, moller_trumbore},
     {4, "closed meshes, moved and scaled", true, closed_moved, contraction},
     {5, "slivers", false, slivers, moller_trumbore},
-    {6, "grazing rays", false, grazing, moller_trumbore},
+    {6, "grazing rays", false, grazing, world_plane},
     {7, "zeros in the direction", true, zero_directions, unpadded},
     {8, "flat boxes", false, flat_boxes, unpadded},
     {9, "tiny and huge directions", false, extreme_directions, unchecked_direction},

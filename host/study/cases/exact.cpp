@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace facet::study {
 namespace {
@@ -56,7 +57,7 @@ std::optional<bool> meets_by_double(vec3d o, vec3d d, const std::array<vec3d, 3>
 grid_point on_grid(vec3f v) { return {std::llrint(v.x), std::llrint(v.y), std::llrint(v.z)}; }
 
 bool grid_ray_meets(const grid_point& o, const grid_point& d, const std::array<grid_point, 3>& p) {
-  using wide = __int128;
+  __extension__ typedef __int128 wide;
   std::array<std::array<wide, 3>, 3> a;
   for (std::size_t k = 0; k < 3; ++k) a[k] = {p[k].x - o.x, p[k].y - o.y, p[k].z - o.z};
   const std::array<wide, 3> way{d.x, d.y, d.z};
@@ -82,6 +83,16 @@ std::optional<exact_hit> meet_exactly(vec3d o, vec3d d, const std::array<vec3d, 
   const mpq_class t = edge_volume(a[0], a[1], a[2]) / sum, b = v / sum, c = w / sum,
                   least = std::min(std::min(mpq_class(u / sum), b), c);
   return exact_hit{t.get_d(), b.get_d(), c.get_d(), u != 0 && v != 0 && w != 0, least.get_d()};
+}
+
+double plane_distance(vec3d o, vec3d d, const std::array<vec3d, 3>& p) {
+  const auto origin = rational(o), way = rational(d);
+  std::array<std::array<mpq_class, 3>, 3> a;
+  for (std::size_t k = 0; k < 3; ++k) a[k] = minus(rational(p[k]), origin);
+  const mpq_class sum =
+      edge_volume(way, a[1], a[2]) + edge_volume(way, a[2], a[0]) + edge_volume(way, a[0], a[1]);
+  if (sum == 0) return std::numeric_limits<double>::quiet_NaN();
+  return mpq_class(edge_volume(a[0], a[1], a[2]) / sum).get_d();
 }
 
 bool meets_exactly(vec3f o, vec3f d, const std::array<vec3f, 3>& p) {

@@ -34,8 +34,11 @@ struct exact_hit {
 /// may be negative.
 std::optional<exact_hit> meet_exactly(vec3d o, vec3d d, const std::array<vec3d, 3>& p);
 
-/// Only whether it does, with t in tmin..tmax: decided by double where its error bound allows, by
-/// rationals elsewhere.
+/// t where the ray meets the triangle's plane, inside or beside it; NaN if it never does.
+double plane_distance(vec3d o, vec3d d, const std::array<vec3d, 3>& p);
+
+/// Only whether it meets the triangle with t >= 0: decided by double where its error bound allows,
+/// by rationals elsewhere.
 bool meets_exactly(vec3f o, vec3f d, const std::array<vec3f, 3>& p);
 
 }  // namespace facet::study

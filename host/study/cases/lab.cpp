@@ -102,27 +102,34 @@ void in_parallel(const lab& l, std::uint64_t count,
   if (failure) std::rethrow_exception(failure);
 }
 
+void in_batches(const lab& l, std::uint64_t count,
+                const std::function<void(std::uint64_t, std::uint64_t)>& body) {
+  const std::uint64_t batch = batch_size(l.queue);
+  for (std::uint64_t first = 0; first < count; first += batch) {
+    if (l.on_batch) l.on_batch();
+    body(first, std::min(batch, count - first));
+  }
+}
+
 finding trace_and_check(lab& l, tracer::device_scene& on, const std::string& what,
                         std::uint64_t count, const ray_maker& make, const hit_check& check) {
   finding f;
   f.what = what;
   f.tried = count;
   tally failures(f);
-  const std::uint64_t batch = batch_size(l.queue);
-  for (std::uint64_t first = 0; first < count; first += batch) {
-    if (l.on_batch) l.on_batch();
-    std::vector<tracer::ray> rays(std::min(batch, count - first));
-    in_parallel(l, rays.size(), [&](std::uint64_t a, std::uint64_t b) {
+  in_batches(l, count, [&](std::uint64_t first, std::uint64_t size) {
+    std::vector<tracer::ray> rays(size);
+    in_parallel(l, size, [&](std::uint64_t a, std::uint64_t b) {
       for (std::uint64_t i = a; i < b; ++i) rays[i] = make(first + i);
     });
     const std::vector<tracer::hit> hits = on.trace(rays);
-    in_parallel(l, rays.size(), [&](std::uint64_t a, std::uint64_t b) {
+    in_parallel(l, size, [&](std::uint64_t a, std::uint64_t b) {
       std::vector<std::uint64_t> bad;
       for (std::uint64_t i = a; i < b; ++i)
         if (!check(first + i, rays[i], hits[i])) bad.push_back(first + i);
       failures.add(std::move(bad));
     });
-  }
+  });
   l.report(f);
   return f;
 }

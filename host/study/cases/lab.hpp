@@ -42,11 +42,11 @@ struct lab {
   runtime::queue queue;
   std::uint64_t rays = 10000;  ///< of the cases that count rays; others take a share of it
   std::uint64_t seed = 1;
-  unsigned threads = 1;            ///< of the host, for rays and oracles
-  const mistake* wrong = nullptr;  ///< what the tracer under test does wrong; null: nothing
-  tracer::options options;         ///< of the tracer under test
-  std::function<void()> on_batch;  ///< called now and then; may throw to end the work
-  std::vector<finding> findings;
+  unsigned threads = 1;              ///< of the host, for rays and oracles
+  const mistake* wrong = nullptr;    ///< what the tracer under test does wrong; null: nothing
+  tracer::options options{};         ///< of the tracer under test
+  std::function<void()> on_batch{};  ///< called now and then; may throw to end the work
+  std::vector<finding> findings{};
 
   /// The scene on the device under test, with the mistake in it.
   tracer::device_scene place(const scene& s) const;
@@ -72,6 +72,10 @@ using hit_check = std::function<bool(std::uint64_t index, const tracer::ray&, co
 /// under `what`. make and check are called from several threads.
 finding trace_and_check(lab& l, tracer::device_scene& on, const std::string& what,
                         std::uint64_t count, const ray_maker& make, const hit_check& check);
+
+/// Calls body(first, size) for the batches that rays 0 to count - 1 are traced in.
+void in_batches(const lab& l, std::uint64_t count,
+                const std::function<void(std::uint64_t, std::uint64_t)>& body);
 
 /// Of checks that trace nothing, or in their own way.
 finding count_failures(lab& l, const std::string& what, std::uint64_t count,

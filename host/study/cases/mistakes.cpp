@@ -1,0 +1,167 @@
+#include "study/cases/mistakes.hpp"
+
+namespace facet::study {
+namespace {
+
+/// The test of Moeller and Trumbore (1997) in place of ours.
+const char* const moller_trumbore_test = R"(
+static inline bool hit_triangle(const Space* s, float3 p0, float3 p1, float3 p2, Interval outer,
+                                float tmin, float tmax, bool count, TriangleHit* hit) {
+  const float3 z = s->axis == 0u ? (float3)(1.0f, s->shear.x, s->shear.y)
+                 : s->axis == 1u ? (float3)(s->shear.y, 1.0f, s->shear.x)
+                                 : (float3)(s->shear.x, s->shear.y, 1.0f);
+  const float3 d = z / s->shear.z;
+  const float3 e1 = p1 - p0, e2 = p2 - p0, p = cross3(d, e2), o = s->o - p0;
+  const float det = dot3(e1, p);
+  if (det == 0.0f) return false;
+  const float inverse = 1.0f / det;
+  const float u = dot3(o, p) * inverse;
+  const float3 q = cross3(o, e1);
+  const float v = dot3(d, q) * inverse, t = dot3(e2, q) * inverse;
+  if (!(u >= 0.0f && v >= 0.0f && u + v <= 1.0f && t >= tmin && t <= tmax)) return false;
+  hit->t = t;
+  hit->u = u;
+  hit->v = v;
+  hit->is_front = det > 0.0f;
+  hit->is_counted = true;
+  return true;
+}
+
+#endif
+)";
+
+mistake of(const char* name, const char* about, std::vector<tracer::kernel_edit> edits) {
+  return {name, about, std::move(edits), ""};
+}
+
+}  // namespace
+
+mistake moller_trumbore() {
+  return of("moller-trumbore", "each triangle decides an edge by itself",
+            {{"triangle.h", "static inline bool hit_triangle(", "static inline bool unused("},
+             {"triangle.h", "  return true;\n}\n\n#endif\n",
+              std::string("  return true;\n}\n") + moller_trumbore_test}});
+}
+
+mistake determinant_epsilon() {
+  return of(
+      "determinant-epsilon", "triangles with |det| < 1e-5 count as parallel",
+      {{"triangle.h", "if (det == 0.0f) return false;", "if (fabs(det) < 1e-5f) return false;"}});
+}
+
+mistake world_plane() {
+  return of("world-plane", "t comes from a plane equation about the world's origin",
+            {{"triangle.h", "  float t = ((u * a.z + v * b.z) + w * c.z) / det;",
+              "  const float3 along = s->axis == 0u   ? (float3)(1.0f, s->shear.x, s->shear.y)\n"
+              "                       : s->axis == 1u ? (float3)(s->shear.y, 1.0f, s->shear.x)\n"
+              "                                       : (float3)(s->shear.x, s->shear.y, 1.0f);\n"
+              "  const float3 n = cross3(p1 - p0, p2 - p0);\n"
+              "  float t = (dot3(n, p0) - dot3(n, s->o)) / dot3(n, along / s->shear.z);"}});
+}
+
+mistake contraction() {
+  return of(
+      "contraction", "edge functions are plain differences, and a*b+c may become an fma",
+      {{"vec.h", "#pragma OPENCL FP_CONTRACT OFF", "#pragma OPENCL FP_CONTRACT ON"},
+       {"triangle.h", "return fma(p.x, q.y, -b) + fma(-p.y, q.x, b);", "return p.x * q.y - b;"}});
+}
+
+mistake unpadded() {
+  return of("unpadded", "slabs without a pad",
+            {{"box.h", "const float3 p = pad * fabs(s.inverse);",
+              "const float3 p = (float3)(0.0f * pad);"}});
+}
+
+mistake far_padding() {
+  return of("far-padding", "slabs padded at the far side alone",
+            {{"box.h", "s.near_offset = c - p;", "s.near_offset = c;"}});
+}
+
+mistake unchecked_direction() {
+  return of("unchecked-direction", "directions and origins of any size are used",
+            {{"triangle.h", "p.z <= 1.152921504606847e18f))\n    return false;",
+              "p.z <= 1.152921504606847e18f)) {}"}});
+}
+
+mistake no_tie_break() {
+  return of("no-tie-break", "of equal distances the first one met wins",
+            {{"traverse.h", "if (hit.t == q->t && (",
+              "if (hit.t == q->t && q->triangle != FACET_NONE && (true || "}});
+}
+
+mistake truncated_nodes() {
+  return of("truncated-nodes", "nodes keep 8 bits of a coordinate, cut off",
+            {{"tree.cl", "  nodes[node_offset + i] = out;",
+              "  for (uint k = 0u; k < 8u; ++k) {\n"
+              "    out.x[k / 4][k % 4] = as_float(as_uint(out.x[k / 4][k % 4]) & 0xffff8000u);\n"
+              "    out.y[k / 4][k % 4] = as_float(as_uint(out.y[k / 4][k % 4]) & 0xffff8000u);\n"
+              "    out.z[k / 4][k % 4] = as_float(as_uint(out.z[k / 4][k % 4]) & 0xffff8000u);\n"
+              "  }\n"
+              "  nodes[node_offset + i] = out;"}});
+}
+
+mistake chained_ties() {
+  return of("chained-ties", "equal codes are joined one after the other (up to 28 of them)",
+            {{"levels.cl", "32u - clz(i ^ (i + 1u))", "i + 1u"}});
+}
+
+mistake kept_bad_vertices() {
+  return of("kept-bad-vertices", "triangles with NaN or infinite corners are kept", {});
+}
+
+mistake short_leaves() {
+  return of("short-leaves", "a leaf's last triangle is left out",
+            {{"traverse.h", "for (uint k = 0; k < count; ++k)",
+              "for (uint k = 0; k + 1u < count; ++k)"}});
+}
+
+mistake open_points() {
+  return of(
+      "open-points", "a determinant of 0 is a hit at the corner's distance",
+      {{"triangle.h", "if (det == 0.0f) return false;", ""},
+       {"triangle.h", "if (!(fabs(t) < INFINITY)) t =", "if (det == 0.0f) t = a.z;\n  else t ="}});
+}
+
+mistake constant_offset() {
+  return of("constant-offset", "secondary rays start 1e-4 away from the surface",
+            {{"surface.h", "f.delta = dot3(", "f.delta = 1e-4f + 0.0f * dot3("}});
+}
+
+mistake wrong_normals() {
+  return of("wrong-normals", "normals travel like directions, not by the inverse transpose",
+            {{"surface.h", "return map_normal(s->instances[place].object_from_world, n);",
+              "return map_vector(s->instances[place].world_from_object, n);"}});
+}
+
+mistake unchecked_refraction() {
+  return of(
+      "unchecked-refraction", "beyond the critical angle the root is taken all the same",
+      {{"states.h", "if (k < 0.0f) return false;", ""},
+       {"states.h", " &&\n                  dot3(behind.direction, f->geometric) < 0.0f;", ";"}});
+}
+
+mistake reversed_media() {
+  return of("reversed-media", "entering a medium counts as leaving it",
+            {{"traverse.h", "is_front ? q->t_end - t : -(q->t_end - t)",
+              "is_front ? -(q->t_end - t) : q->t_end - t"}});
+}
+
+mistake unchecked_normals() {
+  return of(
+      "unchecked-normals", "normals of length 0 are divided by their length",
+      {{"surface.h", "return is_finite && largest > 0.0f ? normalize3(n / largest) : instead;",
+        "return normalize3(n);"}});
+}
+
+mistake wrapped_offsets() {
+  return of("wrapped-offsets",
+            "byte offsets of corners wrap: at 2^19, where small meshes show it, in place of 2^31",
+            {{"geometry.h", "return g[index].xyz;", "return g[index & 0x7fffu].xyz;"}});
+}
+
+mistake inclusive_edges() {
+  return of("inclusive-edges", "an edge is crossed in both of its triangles",
+            {{"traverse.h", "if (hit.is_counted) add_crossing(", "add_crossing("}});
+}
+
+}  // namespace facet::study

@@ -1,0 +1,43 @@
+// A hard case at the size of a unit test: it is met, and its mistake is not.
+#pragma once
+
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+
+#include "study/cases/cases.hpp"
+#include "study/cases/report.hpp"
+#include "tracer/device_helper.hpp"
+
+namespace facet::test {
+
+/// 10^4 rays; under sanitizers, which make the oracles several times slower, 2000.
+inline std::uint64_t case_rays() {
+#if defined(__SANITIZE_ADDRESS__)
+  return 2000;
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+  return 2000;
+#endif
+#endif
+  return 10000;
+}
+
+inline void check_case(int number) {
+  study::lab l{queue()};
+  l.rays = case_rays();
+  l.threads = 2;
+  for (const study::hard_case& c : study::hard_cases()) {
+    if (c.number != number) continue;
+    const study::case_report right = study::run_case(c, l, false);
+    INFO(study::table_row(right, nullptr, false));
+    CHECK(right.is_met());
+    const study::case_report wrong = study::run_case(c, l, true);
+    CAPTURE(wrong.mistake);
+    CHECK(wrong.failures() > 0);
+    return;
+  }
+  FAIL("there is no case ", number);
+}
+
+}  // namespace facet::test
