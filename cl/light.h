@@ -2,6 +2,7 @@
 #ifndef FACET_LIGHT_H
 #define FACET_LIGHT_H
 
+#include "elementary.h"
 #include "media.h"
 #include "surface.h"
 
@@ -28,7 +29,7 @@ static inline float3 transmittance(const Scene* s, GEOMETRY positions, float3 st
   float t[3];
   for (int c = 0; c < 3; ++c) {
     const long depth = q.depth[c] > 0 ? q.depth[c] : 0;
-    t[c] = depth == 0 ? 1.0f : exp(-(convert_float_rte(depth) * 2.3283064365386963e-10f));
+    t[c] = depth == 0 ? 1.0f : exp_strict(-(convert_float_rte(depth) * 2.3283064365386963e-10f));
   }
   return (float3)(t[0], t[1], t[2]);
 #endif
@@ -81,7 +82,7 @@ static inline float3 lit_by(const Scene* s, GEOMETRY positions, __global const L
   if (m->specular) {
     const float3 r = f->shading * (2.0f * facing) - l;
     const float along = dot3(r, -d);
-    highlight = along > 0.0f ? pow(along, m->Ns) : 0.0f;
+    highlight = along > 0.0f ? pow_strict(along, m->Ns) : 0.0f;
   }
   reflected = reflected + vec_global(m->Ks) * highlight;
 #endif

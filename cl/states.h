@@ -118,8 +118,11 @@ static inline float4 radiance(const Scene* s, GEOMETRY positions, GEOMETRY norma
         break;
       case SHADE: {
 #ifndef FACET_NO_TRANSPARENCY
-        if (!is_empty(ray.media))
-          ray.throughput = ray.throughput * exp(-(absorption(s, ray.media) * q.t));
+        if (!is_empty(ray.media)) {
+          const float3 depth = absorption(s, ray.media) * q.t;
+          ray.throughput = ray.throughput * (float3)(exp_strict(-depth.x), exp_strict(-depth.y),
+                                                     exp_strict(-depth.z));
+        }
 #endif
         const Surface f = surface_at(s, positions, normals, &q, ray.direction);
         __global const Material* m = &s->materials[f.material];
