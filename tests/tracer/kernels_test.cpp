@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <regex>
 
 #include "tracer/device_helper.hpp"
 #include "tracer/scenes_helper.hpp"
@@ -53,4 +54,24 @@ TEST_CASE("options name what is left out and what was chosen; stacks grow in ste
   CHECK(all.find("FACET_NO_") == std::string::npos);
   CHECK(all.find("-DFACET_STACK=32") != std::string::npos);
   CHECK(all.find("-DFACET_RAY_STACK=16") != std::string::npos);
+}
+
+TEST_CASE("kernels call no function whose last bits are a device's own") {
+  const std::regex comment("//[^\\n]*");
+  const std::regex inexact(
+      "\\b(exp(2|10|m1)?|log(2|10|1p|b)?|pow[nr]?|rootn|[rc]brt|hypot|rsqrt|erfc?|[lt]gamma|"
+      "a?(sin|cos|tan)(h|pi)?|atan2(pi)?|sincos|mad|mix|smoothstep|degrees|radians|"
+      "dot|cross|length|distance|normalize|(fast|native)_\\w+|"
+      "half_(cos|divide|exp|log|pow|recip|rsqrt|sin|sqrt|tan)\\w*)\\(");
+  const auto calls = [&](const std::string& text) {
+    std::smatch found;
+    const std::string code = std::regex_replace(text, comment, "");
+    return std::regex_search(code, found, inexact) ? found.str() : "";
+  };
+  CHECK(calls("x = native_exp(y);") == "native_exp(");
+  CHECK(calls("x = exp_strict(y) + dot3(a, b);  // exp(y)") == "");
+  for (const auto& file : kernel_sources().files) {
+    CAPTURE(file.first);
+    CHECK(calls(file.second) == "");
+  }
 }
