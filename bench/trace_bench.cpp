@@ -22,17 +22,6 @@ struct settings {
   unsigned threads = std::thread::hardware_concurrency();
 };
 
-std::vector<tracer::ray> packed(const std::vector<ray>& rays) {
-  std::vector<tracer::ray> to;
-  to.reserve(rays.size());
-  for (const ray& r : rays)
-    to.push_back({{r.origin.x, r.origin.y, r.origin.z},
-                  r.tmin,
-                  {r.direction.x, r.direction.y, r.direction.z},
-                  r.tmax});
-  return to;
-}
-
 nlohmann::json rates(const std::vector<double>& seconds, std::size_t rays) {
   std::vector<double> rate;
   for (double s : seconds) rate.push_back(double(rays) / s * 1e-6);

@@ -123,4 +123,15 @@ std::vector<ray> shadow_rays(const mesh& m, const std::vector<ray>& primary,
   return rays;
 }
 
+std::vector<tracer::ray> packed(const std::vector<ray>& rays) {
+  std::vector<tracer::ray> to;
+  to.reserve(rays.size());
+  for (const ray& r : rays)
+    to.push_back({{r.origin.x, r.origin.y, r.origin.z},
+                  r.tmin,
+                  {r.direction.x, r.direction.y, r.direction.z},
+                  r.tmax});
+  return to;
+}
+
 }  // namespace facet::bench

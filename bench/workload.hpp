@@ -9,6 +9,7 @@
 
 #include "reference/ray.hpp"
 #include "scene/scene.hpp"
+#include "tracer/tracer.hpp"
 
 namespace facet::bench {
 
@@ -25,6 +26,9 @@ mesh load_workload(const std::string& name);
 scene scene_of(mesh m);
 
 std::vector<ray> primary_rays();
+
+/// As the device tracer takes them.
+std::vector<tracer::ray> packed(const std::vector<ray>& rays);
 
 /// Rays from the hits of `primary`, in the same order, misses left out.
 std::vector<ray> bounce_rays(const mesh& m, const std::vector<ray>& primary,

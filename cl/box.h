@@ -1,17 +1,22 @@
 // Slab intervals of boxes along a ray, padded so that no rounding can lose a hit.
 //
 // The interval of a box is [max_i fma(near_i, inv_i, near_offset_i), min_i fma(far_i, inv_i,
-// far_offset_i)]; a triangle's t is clamped into the interval of the triangle's own box. Every
-// operation is monotone in the box's faces and the offsets are the ray's alone: the interval of
-// a node holds those of all boxes inside it, bit for bit, in whichever tree it stands. A node
-// may therefore be left out when its near end is beyond the best t (but not at equality), when its
-// far end is before tmin, or when it is empty, and no tree can change the hit.
+// far_offset_i)]; a triangle's t lies in the interval of the triangle's own box, or is held to
+// it (triangle.h). Every operation is monotone in the box's faces and the offsets are the ray's
+// alone: the interval of a node holds those of all boxes inside it, bit for bit, in whichever tree
+// it stands. A node may therefore be left out when its near end is beyond the best t (but not at
+// equality), when its far end is before tmin, or when it is empty, and no tree can change the hit.
 //
-// The pad of 16 u E, with E the largest |origin| + |face| of any axis and u = 2^-24, covers the
-// rounding here (inv, o * inv, both offsets, the fma: 4u|o| + 2u|face|), that of the triangle
-// test's shear (2u of its own axis and 4u of the main one) and the change of directions that are
-// nearly 0 below. It is absolute in space: a relative one loses hits on edges that lie in a
-// box's face while their ends are far from the ray.
+// What this takes, and the test that holds it (tests/tracer/query_test.cpp, facet accuracy):
+//   -, *, fma and comparisons are correctly rounded, nothing is contracted     elementary, case 11
+//   a node's box holds its triangles' exactly                                  tree, case 12
+//   t is in its triangle's interval: the same bits where it is always held     case 11
+//   nodes are left out beyond the best t alone, and ties go to the smaller id  cases 10, 11
+//
+// The pad of 24 u E, with E the largest |origin| + |face| of any axis and u = 2^-24, covers the
+// rounding here (inv, o * inv, both offsets, the fma: 4u|o| + 2u|face|), that of the triangle test
+// (19u E) and the change of directions that are nearly 0 below. It is absolute in space: a relative
+// one loses hits on edges that lie in a box's face while their ends are far from the ray.
 #ifndef FACET_BOX_H
 #define FACET_BOX_H
 
@@ -31,7 +36,7 @@ typedef struct {
 // change, as t * |d_i| differs by less than 2^-60 E.
 static inline Slabs slabs_of(float3 o, float3 d, float3 reach, float largest) {
   const float3 e = fabs(o) + reach;
-  const float pad = (16.0f * FACET_ULP) * larger(e.x, larger(e.y, e.z));
+  const float pad = (24.0f * FACET_ULP) * larger(e.x, larger(e.y, e.z));
   const float least = largest * 8.673617379884035e-19f;
   const float3 raised = (float3)(fabs(d.x) < least ? copysign(least, d.x) : d.x,
                                  fabs(d.y) < least ? copysign(least, d.y) : d.y,
@@ -50,14 +55,11 @@ static inline Slabs slabs_of(float3 o, float3 d, float3 reach, float largest) {
 }
 
 static inline Interval box_interval(const Slabs s, float3 lo, float3 hi) {
-  const bool px = s.inverse.x > 0.0f, py = s.inverse.y > 0.0f, pz = s.inverse.z > 0.0f;
+  const float3 near = fma(s.inverse > 0.0f ? lo : hi, s.inverse, s.near_offset);
+  const float3 far = fma(s.inverse > 0.0f ? hi : lo, s.inverse, s.far_offset);
   Interval i;
-  i.near = larger(fma(px ? lo.x : hi.x, s.inverse.x, s.near_offset.x), -INFINITY);
-  i.near = larger(fma(py ? lo.y : hi.y, s.inverse.y, s.near_offset.y), i.near);
-  i.near = larger(fma(pz ? lo.z : hi.z, s.inverse.z, s.near_offset.z), i.near);
-  i.far = smaller(fma(px ? hi.x : lo.x, s.inverse.x, s.far_offset.x), INFINITY);
-  i.far = smaller(fma(py ? hi.y : lo.y, s.inverse.y, s.far_offset.y), i.far);
-  i.far = smaller(fma(pz ? hi.z : lo.z, s.inverse.z, s.far_offset.z), i.far);
+  i.near = cull_max1(near.z, cull_max1(near.y, cull_max1(near.x, -INFINITY)));
+  i.far = cull_min1(far.z, cull_min1(far.y, cull_min1(far.x, INFINITY)));
   return i;
 }
 

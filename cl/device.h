@@ -3,14 +3,20 @@
 #define FACET_DEVICE_H
 
 // The larger, or the smaller, by component, where `bound` is never NaN; a NaN in `a` is dropped. The
-// sign of a zero may be either: use only where it cannot reach a result (culling nodes). GPUs
+// sign of a zero may be either: use only where it cannot reach a result. GPUs
 // have one instruction for it; PoCL makes calls of fmax and fmin, and of a comparison one instruction.
 #ifdef FACET_HARDWARE_MINMAX
-static inline float4 cull_max(float4 a, float4 bound) { return fmax(a, bound); }
-static inline float4 cull_min(float4 a, float4 bound) { return fmin(a, bound); }
+#define FACET_CULL_MAX(a, bound) fmax(a, bound)
+#define FACET_CULL_MIN(a, bound) fmin(a, bound)
 #else
-static inline float4 cull_max(float4 a, float4 bound) { return a > bound ? a : bound; }
-static inline float4 cull_min(float4 a, float4 bound) { return a < bound ? a : bound; }
+#define FACET_CULL_MAX(a, bound) ((a) > (bound) ? (a) : (bound))
+#define FACET_CULL_MIN(a, bound) ((a) < (bound) ? (a) : (bound))
 #endif
+static inline float cull_max1(float a, float bound) { return FACET_CULL_MAX(a, bound); }
+static inline float cull_min1(float a, float bound) { return FACET_CULL_MIN(a, bound); }
+static inline float3 cull_max3(float3 a, float3 bound) { return FACET_CULL_MAX(a, bound); }
+static inline float3 cull_min3(float3 a, float3 bound) { return FACET_CULL_MIN(a, bound); }
+static inline float4 cull_max(float4 a, float4 bound) { return FACET_CULL_MAX(a, bound); }
+static inline float4 cull_min(float4 a, float4 bound) { return FACET_CULL_MIN(a, bound); }
 
 #endif

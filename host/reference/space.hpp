@@ -68,7 +68,7 @@ struct space {
     Sx = direction[kx] / direction[kz], Sy = direction[ky] / direction[kz], Sz = 1 / direction[kz];
 
     reach = abs(o) + extent;
-    pad = 16 * unit_roundoff<T> * std::max(std::max(reach.x, reach.y), reach.z);
+    pad = 24 * unit_roundoff<T> * std::max(std::max(reach.x, reach.y), reach.z);
     const T least = std::abs(direction[kz]) * T(0x1p-60);
     for (int i = 0; i < 3; ++i) {
       inverse[i] = 1 / (a[i] < least ? std::copysign(least, d[i]) : d[i]);

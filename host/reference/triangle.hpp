@@ -76,7 +76,8 @@ class triangle_test {
     const interval<T> slab = space_.slab(bounds_of(p_)).meet(outer);
     if (!(slab.near <= slab.far)) return {};
     t = t < slab.near ? slab.near : t;
-    t = t > slab.far ? slab.far : t;
+    // One zero: that of a face may have either sign, and devices keep either.
+    t = (t > slab.far ? slab.far : t) + T(0);
     if (!(t >= tmin && t <= tmax)) return {};
     return triangle_hit<T>{t, v_ / det, w_ / det};
   }

@@ -207,7 +207,7 @@ TEST_CASE("the sphere is where it should be, by the distance of its facets") {
 }
 
 TEST_CASE("float and double meet the same triangles at the same distance") {
-  // The test's arithmetic moves a hit by at most the pad's 16u * E across and along the ray, and
+  // The test's arithmetic moves a hit by at most the pad's 24u * E across and along the ray, and
   // the rays here differ by no rounding: t off by twice that over the cosine (|d| is about 3).
   const scene s = test::scene_of(jagged(1, {}));
   const tracer<float> f(s);
@@ -227,7 +227,7 @@ TEST_CASE("float and double meet the same triangles at the same distance") {
         p2(s.meshes[0].position(b.triangle, 2));
     const vec3d n = normalize(cross(p1 - p0, p2 - p0));
     const double slope = std::abs(dot(n, vec3d(dir)));
-    REQUIRE(std::abs(double(a.t) - b.t) <= 2 * 16 * 0x1p-24 * 4.5 / slope + 0x1p-23 * b.t);
+    REQUIRE(std::abs(double(a.t) - b.t) <= 2 * 24 * 0x1p-24 * 4.5 / slope + 0x1p-23 * b.t);
   }
   // An edge is within 6u * E of a ray with a chance of about 1e-5 here.
   CHECK(differ <= 2);

@@ -94,7 +94,7 @@ TEST_CASE_TEMPLATE("a ray in a face, along an edge or through a flat box is not 
     const interval<T> across = space<T>({0, 1, 5}, {zero, zero, -1}, {1, 1, 1}).slab(flat);
     CHECK(across.near <= 5);
     CHECK(across.far >= 5);
-    // Beyond the pad (16u * 4 here) on an axis without motion there is nothing to meet.
+    // Beyond the pad (24u * 4 here) on an axis without motion there is nothing to meet.
     const interval<T> beside = space<T>({-3, T(1.5), 0}, {1, zero, zero}, {1, 1, 1}).slab(cube);
     CHECK_FALSE((beside.near <= beside.far && beside.far >= 0));
   }

@@ -56,11 +56,7 @@ std::uint64_t finding::failures() const { return failed != 0 ? failed : is_met()
 tracer::device_scene lab::place(const scene& s) const { return place(s, options); }
 
 tracer::device_scene lab::place(const scene& s, tracer::options o) const {
-  if (wrong) {
-    o.edits.insert(o.edits.end(), wrong->edits.begin(), wrong->edits.end());
-    o.compiler_flags += wrong->flags;
-  }
-  return {queue, s, std::move(o)};
+  return {queue, s, wrong ? with(*wrong, std::move(o)) : std::move(o)};
 }
 
 void lab::report_figure(std::string what, double measured, double limit, std::string unit) {

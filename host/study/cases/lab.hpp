@@ -12,6 +12,7 @@
 
 #include "runtime/queue.hpp"
 #include "scene/scene.hpp"
+#include "study/variants.hpp"
 #include "tracer/tracer.hpp"
 
 namespace facet::study {
@@ -31,11 +32,7 @@ struct finding {
 };
 
 /// A deliberate mistake, by which a case shows that it can fail.
-struct mistake {
-  std::string name, about;
-  std::vector<tracer::kernel_edit> edits;
-  std::string flags;
-};
+using mistake = variant;
 
 /// What all cases share. A case makes its scenes and rays from `seed` alone.
 struct lab {

@@ -51,7 +51,7 @@ mistake determinant_epsilon() {
 
 mistake world_plane() {
   return of("world-plane", "t comes from a plane equation about the world's origin",
-            {{"triangle.h", "  float t = ((u * a.z + v * b.z) + w * c.z) / det;",
+            {{"triangle.h", "  float t = top / det;",
               "  const float3 along = s->axis == 0u   ? (float3)(1.0f, s->shear.x, s->shear.y)\n"
               "                       : s->axis == 1u ? (float3)(s->shear.y, 1.0f, s->shear.x)\n"
               "                                       : (float3)(s->shear.x, s->shear.y, 1.0f);\n"
@@ -116,10 +116,10 @@ mistake short_leaves() {
 }
 
 mistake open_points() {
-  return of(
-      "open-points", "a determinant of 0 is a hit at the corner's distance",
-      {{"triangle.h", "if (det == 0.0f) return false;", ""},
-       {"triangle.h", "if (!(fabs(t) < INFINITY)) t =", "if (det == 0.0f) t = a.z;\n  else t ="}});
+  return of("open-points", "a determinant of 0 is a hit at the corner's distance",
+            {{"triangle.h", "if (det == 0.0f) return false;", ""},
+             {"triangle.h",
+              "if (!(fabs(t) < INFINITY)) t =", "if (det == 0.0f) t = a.z;\n    else t ="}});
 }
 
 mistake constant_offset() {

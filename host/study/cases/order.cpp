@@ -36,6 +36,9 @@ std::vector<way> ways(const lab& l, bool with_brute_force) {
   add("levels, buffer, 1", tree_kind::levels, geometry_kind::buffer, 1, 1, false);
   add("levels, buffer, 16x16", tree_kind::levels, geometry_kind::buffer, 16, 16, false);
   add("levels, buffer, all features", tree_kind::levels, geometry_kind::buffer, 0, 0, true);
+  // As triangle.h says, that is sure to change nothing where it is left out.
+  add("levels, buffer, t always held", tree_kind::levels, geometry_kind::buffer, 0, 0, false);
+  all.back().options.edits.push_back({"triangle.h", "if (!is_sure) {", "{"});
   if (with_brute_force) {
     add("none, buffer, 64", tree_kind::none, geometry_kind::buffer, 0, 0, false);
     add("none, image, 32", tree_kind::none, geometry_kind::image, 32, 1, true);

@@ -1,0 +1,124 @@
+// Row `exactness`: what exact hits cost. The library's kernel against variants of it that leave out
+// what makes hits exact (study/variants), on one tree, the same rays, alternated in one run.
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "bench/measure.hpp"
+#include "bench/rows.hpp"
+#include "bench/workload.hpp"
+#include "runtime/runtime.hpp"
+#include "study/statistics.hpp"
+#include "study/variants.hpp"
+
+namespace facet::bench {
+namespace {
+
+struct settings {
+  std::vector<std::string> meshes{"terrain:1000", "soup:1000000"};
+  std::string device = "0", flags, json;
+  int repeat = 15;
+};
+
+struct entry {
+  study::variant what;
+  tracer::device_scene on;
+  bool is_inexact = false;       ///< it has no guard at all
+  std::vector<double> rates{};   ///< Mrays/s
+  std::uint64_t other_hits = 0;  ///< than the strict kernel's: triangle or miss
+};
+
+struct rays_of {
+  const char* kind;
+  std::vector<tracer::ray> rays;
+  bool any;
+};
+
+/// Alternates all variants, the strict one first; a line and a JSON object for each.
+void measure(const std::string& mesh, const rays_of& r, std::vector<entry>& all, int repeat,
+             nlohmann::json& results) {
+  std::vector<tracer::hit> strict;
+  for (entry& e : all) e.rates.clear();
+  for (int k = 0; k < repeat; ++k)
+    for (entry& e : all) {
+      tracer::statistics s;
+      const auto hits = e.on.trace(r.rays, r.any, 1, &s);
+      e.rates.push_back(double(r.rays.size()) / s.kernel_ms[0] * 1e-3);
+      if (k > 0) continue;
+      if (&e == &all[0]) strict = hits;
+      e.other_hits = 0;
+      for (std::size_t i = 0; i < hits.size(); ++i)
+        e.other_hits += hits[i].triangle != strict[i].triangle;
+    }
+  double fastest = 0;
+  for (const entry& e : all)
+    if (e.is_inexact) fastest = std::max(fastest, study::summarize(e.rates).median);
+  for (entry& e : all) {
+    const study::summary s = study::summarize(e.rates);
+    std::printf("%-20s %-8s %-30s %9.2f (%.2f-%.2f)  %6.3f  %llu\n", mesh.c_str(), r.kind,
+                e.what.name.c_str(), s.median, s.least, s.most, s.median / fastest,
+                static_cast<unsigned long long>(e.other_hits));
+    results.push_back({{"mesh", mesh},
+                       {"rays", r.kind},
+                       {"count", r.rays.size()},
+                       {"variant", e.what.name},
+                       {"mrays_per_s", s.median},
+                       {"mrays_per_s_all", e.rates},
+                       {"over_fastest_inexact", s.median / fastest},
+                       {"other_hits", e.other_hits}});
+  }
+  std::fflush(stdout);
+}
+
+void run(const settings& o) {
+  const runtime::device device = runtime::select_device(o.device);
+  runtime::queue queue(device);
+  nlohmann::json report{{"row", "exactness"},
+                        {"device", device.name()},
+                        {"platform", device.platform_name()},
+                        {"driver", device.driver_version()},
+                        {"repeat", o.repeat},
+                        {"flags", o.flags},
+                        {"results", nlohmann::json::array()}};
+  std::printf(
+      "Mrays/s: median (least-most); over the fastest inexact variant; hits other than strict\n");
+  const std::vector<ray> primary = primary_rays();
+  for (const std::string& path : o.meshes) {
+    const std::string name = path.substr(path.find_last_of('/') + 1);
+    const scene s = scene_of(load_workload(path));
+    std::vector<entry> all;
+    tracer::options options;
+    options.compiler_flags = o.flags;
+    all.push_back({{"strict", "the library's kernel"}, tracer::device_scene(queue, s, options)});
+    for (const study::variant& v : study::inexact_variants())
+      all.push_back({v, tracer::device_scene(queue, s, study::with(v, options)), true});
+    for (const study::variant& v : study::single_guards())
+      all.push_back({v, tracer::device_scene(queue, s, study::with(v, options))});
+    std::vector<hit> met;
+    for (const tracer::hit& h : all[0].on.trace(packed(primary)))
+      met.push_back({h.t, h.u, h.v, h.instance, h.triangle});
+    for (const rays_of& r :
+         {rays_of{"primary", packed(primary), false},
+          rays_of{"shadow", packed(shadow_rays(s.meshes[0], primary, met)), true},
+          rays_of{"bounce", packed(bounce_rays(s.meshes[0], primary, met)), false}})
+      measure(name, r, all, o.repeat, report["results"]);
+  }
+  if (!o.json.empty()) write_text(o.json, report.dump(2));
+}
+
+}  // namespace
+
+void add_exactness_row(CLI::App& app) {
+  auto o = std::make_shared<settings>();
+  CLI::App* row =
+      app.add_subcommand("exactness", "The strict kernel against inexact variants of it");
+  row->add_option("--mesh", o->meshes, "OBJ files, terrain:N or soup:N")->capture_default_str();
+  row->add_option("--device", o->device, "index, or part of a name")->capture_default_str();
+  row->add_option("--flags", o->flags, "more of the compiler's options, for all alike");
+  row->add_option("--repeat", o->repeat, "runs of each figure, alternated")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  row->add_option("--json", o->json, "write the figures to this file");
+  row->callback([o] { run(*o); });
+}
+
+}  // namespace facet::bench
