@@ -59,6 +59,9 @@ static inline float edge_function(float3 p, float3 q) {
   return fma(p.x, q.y, -b) + fma(-p.y, q.x, b);
 }
 
+// The same with rounded products: its sign is right or it is 0.
+static inline float rough_edge(float3 p, float3 q) { return p.x * q.y - p.y * q.x; }
+
 // The sign of an edge function with ties broken by moving the ray by (eps, eps^2) in the plane
 // (simulation of simplicity, Edelsbrunner and Muecke 1990): an edge belongs to exactly one of its
 // triangles.
@@ -104,6 +107,9 @@ static inline bool hold_to_boxes(const Space* s, float3 p0, float3 p1, float3 p2
 static inline bool hit_triangle(const Space* s, float3 p0, float3 p1, float3 p2, Interval outer,
                          float tmin, float tmax, bool count, TriangleHit* hit) {
   const float3 a = shear_corner(s, p0), b = shear_corner(s, p1), c = shear_corner(s, p2);
+  // Most triangles that are tested are passed by: these need no more than the signs.
+  const float ru = rough_edge(c, b), rv = rough_edge(a, c), rw = rough_edge(b, a);
+  if ((ru < 0.0f || rv < 0.0f || rw < 0.0f) && (ru > 0.0f || rv > 0.0f || rw > 0.0f)) return false;
   const float u = edge_function(c, b), v = edge_function(a, c), w = edge_function(b, a);
   if ((u < 0.0f || v < 0.0f || w < 0.0f) && (u > 0.0f || v > 0.0f || w > 0.0f)) return false;
   const float det = (u + v) + w;

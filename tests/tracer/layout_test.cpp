@@ -30,6 +30,11 @@ using namespace facet::tracer;
   SIZE(View) FIELD(View, width) FIELD(View, corner) FIELD(View, height) FIELD(View, dx) \
     FIELD(View, max_depth) FIELD(View, dy) FIELD(View, samples) FIELD(View, background) \
     FIELD(View, background_alpha) FIELD(View, ambient) FIELD(View, light_count) \
+    FIELD(View, media) \
+  SIZE(Faults) FIELD(Faults, crowded) \
+  SIZE(SurfacePoint) FIELD(SurfacePoint, triangle) FIELD(SurfacePoint, delta) \
+    FIELD(SurfacePoint, near_side) FIELD(SurfacePoint, children) FIELD(SurfacePoint, refracted_weight) \
+  SIZE(Passage) FIELD(Passage, is_dark) FIELD(Passage, exits) \
   SIZE(World) FIELD(World, root) FIELD(World, instance_count) FIELD(World, triangle_count) \
   SIZE(Ray) FIELD(Ray, tmin) FIELD(Ray, direction) FIELD(Ray, tmax) \
   SIZE(Hit) FIELD(Hit, triangle)
@@ -52,7 +57,8 @@ TEST_CASE("the device lays out every shared structure as the host does") {
       "Box x_Box; TreeNode x_TreeNode; Node x_Node; TriangleInfo x_TriangleInfo; Instance "
       "x_Instance;\n"
       "Material x_Material; Light x_Light; View x_View; World x_World; Ray x_Ray; Hit "
-      "x_Hit;\n" EXPANDED(FIELDS(DEVICE_SIZE, DEVICE_FIELD)) "\n}\n";
+      "x_Hit; Faults x_Faults; SurfacePoint x_SurfacePoint; Passage x_Passage;\n" EXPANDED(
+          FIELDS(DEVICE_SIZE, DEVICE_FIELD)) "\n}\n";
   runtime::queue& q = test::queue();
   runtime::program program(q.get_context(), sources, "layout_test.cl", "");
   runtime::kernel ask = program.get_kernel("ask");
