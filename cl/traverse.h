@@ -39,7 +39,8 @@ static inline Scene scene_of(__global const World* w, __global const Node* nodes
 #define FACET_CROSSINGS 2u // the optical depth of what is transparent, until something is not
 
 typedef struct {
-  float t, u, v;
+  float t, u, v;  // u and v times det until the search has ended
+  float det;
   uint instance, triangle;  // ids in the scene; FACET_NONE: nothing met
   uint place, slot;         // where they stand in memory: instance and triangle in leaf order
   // FACET_CROSSINGS: where media end that are still open, and what has been crossed, in units of
@@ -104,8 +105,9 @@ static inline bool meet_triangle(const Scene* s, GEOMETRY positions, const Space
   if (hit.t == q->t && (instance > q->instance || (instance == q->instance && triangle >= q->triangle)))
     return false;
   q->t = hit.t;
-  q->u = hit.u;
-  q->v = hit.v;
+  q->u = hit.v;
+  q->v = hit.w;
+  q->det = hit.det;
   q->instance = instance;
   q->triangle = triangle;
   q->place = place;
@@ -239,6 +241,7 @@ static inline Query traverse_to(const Scene* s, GEOMETRY positions, float3 o, fl
   Query q;
   q.t = tmax;
   q.u = q.v = 0.0f;
+  q.det = 1.0f;
   q.instance = q.triangle = FACET_NONE;
   q.place = q.slot = 0u;
   q.depth[0] = q.depth[1] = q.depth[2] = 0;
@@ -255,6 +258,8 @@ static inline Query traverse_to(const Scene* s, GEOMETRY positions, float3 o, fl
   }
   if (s->triangle_count == 0u) return q;
   search(s, positions, o, d, start, mode, &space, &q);
+  q.u = q.u / q.det;
+  q.v = q.v / q.det;
   return q;
 }
 

@@ -72,7 +72,8 @@ static inline float edge_sign(float e, float3 p, float3 q) {
 }
 
 typedef struct {
-  float t, u, v;
+  float t;
+  float v, w, det;  // the hit's u is v / det, its v is w / det: divided once, for the last hit
   bool is_front;    // the ray enters through the side on which the corners turn counter-clockwise
   bool is_counted;  // this triangle, not a neighbour, owns the edge or corner that is met
 } TriangleHit;
@@ -124,8 +125,9 @@ static inline bool hit_triangle(const Space* s, float3 p0, float3 p1, float3 p2,
   }
   if (!(t >= tmin && t <= tmax)) return false;
   hit->t = t;
-  hit->u = v / det;
-  hit->v = w / det;
+  hit->v = v;
+  hit->w = w;
+  hit->det = det;
   hit->is_front = (det > 0.0f) != s->is_negative;
   if (count) {
     const float su = edge_sign(u, c, b), sv = edge_sign(v, a, c), sw = edge_sign(w, b, a);

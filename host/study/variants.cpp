@@ -19,8 +19,9 @@ static inline bool hit_triangle(const Space* s, float3 p0, float3 p1, float3 p2,
   const float t = dot3(e2, q) * inverse;
   if (!(t >= tmin && t <= tmax)) return false;
   hit->t = t;
-  hit->u = u;
-  hit->v = v;
+  hit->v = u;
+  hit->w = v;
+  hit->det = 1.0f;
   hit->is_front = inverse > 0.0f;
   hit->is_counted = true;
   return true;

@@ -20,8 +20,9 @@ static inline bool hit_triangle(const Space* s, float3 p0, float3 p1, float3 p2,
   const float v = dot3(d, q) * inverse, t = dot3(e2, q) * inverse;
   if (!(u >= 0.0f && v >= 0.0f && u + v <= 1.0f && t >= tmin && t <= tmax)) return false;
   hit->t = t;
-  hit->u = u;
-  hit->v = v;
+  hit->v = u;
+  hit->w = v;
+  hit->det = 1.0f;
   hit->is_front = det > 0.0f;
   hit->is_counted = true;
   return true;
