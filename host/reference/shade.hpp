@@ -32,7 +32,8 @@ class shader {
     bool hit = false;             ///< of the eye ray
     std::uint64_t signature = 0;  ///< of the whole tree of rays: which surfaces in which state
   };
-  result trace(const vec3<T>& origin, const vec3<T>& direction, std::uint32_t max_depth) const;
+  result trace(const vec3<T>& origin, const vec3<T>& direction, std::uint32_t max_depth,
+               road by) const;
 
   /// Light passing along r, whose origin lies in `medium`; `r.tmax` is the distance of the light,
   /// or infinite. Each surface dims by Kt, each way inside by Beer-Lambert; opaque ones by all.
@@ -54,6 +55,7 @@ class shader {
   /// One eye ray under way: what its tree of rays adds to.
   struct path {
     std::uint32_t max_depth;
+    road by;
     vec3<T> sum;
     std::uint64_t signature = 0;
 

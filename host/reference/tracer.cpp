@@ -27,6 +27,35 @@ std::vector<crossing<T>> all_crossings(const geometry<T>& g, const ray<T>& r, ro
   return found;
 }
 
+template <class T>
+picture rendered(const scene& source, const shader<T>& light, road by, std::uint32_t width,
+                 std::uint32_t height, std::uint32_t max_depth, const progress& on_progress) {
+  const film<T> f(frame_of(source.view, width, height));
+  const std::uint32_t n = source.samples;
+  picture out(width, height);
+  for (std::uint32_t y = 0; y < height; ++y) {
+    for (std::uint32_t x = 0; x < width; ++x) {
+      vec3<T> sum;
+      T alpha = 0;
+      for (std::uint32_t j = 0; j < n; ++j)
+        for (std::uint32_t i = 0; i < n; ++i) {
+          const T sx = T(x) + (T(i) + T(0.5)) / T(n), sy = T(y) + (T(j) + T(0.5)) / T(n);
+          const auto r = light.trace(f.origin, f.through(sx, sy).direction, max_depth, by);
+          sum = sum + r.radiance;
+          alpha += r.hit ? T(1) : T(source.background_alpha);
+        }
+      const T rays = T(n * n);
+      const vec3<T> colour = sum / rays;
+      float* p = out.at(x, y);
+      p[0] = float(colour.x), p[1] = float(colour.y), p[2] = float(colour.z);
+      p[3] = float(alpha / rays);
+    }
+    const auto row = std::uint64_t(width);
+    if (on_progress && !on_progress(row * (y + 1), row * height)) break;
+  }
+  return out;
+}
+
 }  // namespace
 
 template <class T>
@@ -85,43 +114,25 @@ vec3<T> tracer<T>::transmittance_brute(const ray<T>& r, std::uint32_t medium) co
 template <class T>
 std::array<T, 4> tracer<T>::pixel(const film<T>& f, T x, T y, std::uint32_t max_depth) const {
   const auto [c, hit, signature] =
-      state_->light.trace(f.origin, f.through(x, y).direction, max_depth);
+      state_->light.trace(f.origin, f.through(x, y).direction, max_depth, road::tree);
   return {c.x, c.y, c.z, hit ? T(1) : T(state_->source.background_alpha)};
 }
 
 template <class T>
 std::uint64_t tracer<T>::signature(const film<T>& f, T x, T y, std::uint32_t max_depth) const {
-  return state_->light.trace(f.origin, f.through(x, y).direction, max_depth).signature;
+  return state_->light.trace(f.origin, f.through(x, y).direction, max_depth, road::tree).signature;
 }
 
 template <class T>
 picture tracer<T>::render(std::uint32_t width, std::uint32_t height, std::uint32_t max_depth,
                           const progress& on_progress) const {
-  const scene& source = state_->source;
-  const film<T> f(frame_of(source.view, width, height));
-  const std::uint32_t n = source.samples;
-  picture out(width, height);
-  for (std::uint32_t y = 0; y < height; ++y) {
-    for (std::uint32_t x = 0; x < width; ++x) {
-      vec3<T> sum;
-      T alpha = 0;
-      for (std::uint32_t j = 0; j < n; ++j)
-        for (std::uint32_t i = 0; i < n; ++i) {
-          const T sx = T(x) + (T(i) + T(0.5)) / T(n), sy = T(y) + (T(j) + T(0.5)) / T(n);
-          const auto r = state_->light.trace(f.origin, f.through(sx, sy).direction, max_depth);
-          sum = sum + r.radiance;
-          alpha += r.hit ? T(1) : T(source.background_alpha);
-        }
-      const T rays = T(n * n);
-      const vec3<T> colour = sum / rays;
-      float* p = out.at(x, y);
-      p[0] = float(colour.x), p[1] = float(colour.y), p[2] = float(colour.z);
-      p[3] = float(alpha / rays);
-    }
-    const auto row = std::uint64_t(width);
-    if (on_progress && !on_progress(row * (y + 1), row * height)) break;
-  }
-  return out;
+  return rendered(state_->source, state_->light, road::tree, width, height, max_depth, on_progress);
+}
+template <class T>
+picture tracer<T>::render_brute(std::uint32_t width, std::uint32_t height, std::uint32_t max_depth,
+                                const progress& on_progress) const {
+  return rendered(state_->source, state_->light, road::brute_force, width, height, max_depth,
+                  on_progress);
 }
 
 template class tracer<float>;

@@ -44,6 +44,14 @@ TEST_CASE("a pixel of one sample is the eye ray through its centre") {
     }
 }
 
+TEST_CASE("a picture without trees has the same bits, glass and shadows included") {
+  const scene s = still_life();
+  const tracer<float> single(s);
+  CHECK(single.render_brute(16, 12, 4).rgba == single.render(16, 12, 4).rgba);
+  const tracer<double> oracle(s);
+  CHECK(oracle.render_brute(8, 6, 4).rgba == oracle.render(8, 6, 4).rgba);
+}
+
 TEST_CASE("samples are the mean over a regular grid, alpha too") {
   scene s = still_life();
   s.samples = 2;
