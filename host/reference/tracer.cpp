@@ -129,10 +129,9 @@ picture tracer<T>::render(std::uint32_t width, std::uint32_t height, std::uint32
   return rendered(state_->source, state_->light, road::tree, width, height, max_depth, on_progress);
 }
 template <class T>
-picture tracer<T>::render_brute(std::uint32_t width, std::uint32_t height, std::uint32_t max_depth,
-                                const progress& on_progress) const {
-  return rendered(state_->source, state_->light, road::brute_force, width, height, max_depth,
-                  on_progress);
+picture tracer<T>::render_without_tree(std::uint32_t width, std::uint32_t height,
+                                       std::uint32_t max_depth, const progress& on_progress) const {
+  return rendered(state_->source, state_->light, road::scan, width, height, max_depth, on_progress);
 }
 
 template class tracer<float>;

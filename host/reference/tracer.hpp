@@ -41,8 +41,8 @@ class tracer {
   tracer(tracer&&) noexcept;
   tracer& operator=(tracer&&) noexcept;
 
-  /// The smallest (t, instance, triangle) with tmin <= t <= tmax. The _brute twins, here and below,
-  /// try every triangle and give the same bits.
+  /// The smallest (t, instance, triangle) with tmin <= t <= tmax. The _brute twins try every
+  /// triangle and give the same bits.
   hit<T> closest(const ray<T>& r) const;
   hit<T> closest_brute(const ray<T>& r) const;
   bool occluded(const ray<T>& r) const;
@@ -69,8 +69,10 @@ class tracer {
   /// returned false is 0 in all channels.
   picture render(std::uint32_t width, std::uint32_t height, std::uint32_t max_depth,
                  const progress& on_progress = {}) const;
-  picture render_brute(std::uint32_t width, std::uint32_t height, std::uint32_t max_depth,
-                       const progress& on_progress = {}) const;
+  /// The same bits by a program that has no trees: each ray is tested against all triangles of the
+  /// instances whose boxes it meets, as fast as that goes.
+  picture render_without_tree(std::uint32_t width, std::uint32_t height, std::uint32_t max_depth,
+                              const progress& on_progress = {}) const;
 
  private:
   struct state;

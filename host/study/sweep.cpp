@@ -185,7 +185,7 @@ class run {
   picture serial_picture() {
     const auto go_on = [&](std::uint64_t, std::uint64_t) { return !(cancel_ && cancel_->load()); };
     picture p = of_.tree == tracer::tree_kind::none
-                    ? serial_->render_brute(of_.width, of_.height, of_.max_depth, go_on)
+                    ? serial_->render_without_tree(of_.width, of_.height, of_.max_depth, go_on)
                     : serial_->render(of_.width, of_.height, of_.max_depth, go_on);
     if (!go_on(0, 0)) throw stopped();
     return p;
