@@ -33,5 +33,6 @@ command add_trace(CLI::App& program);
 command add_devices(CLI::App& program);
 command add_info(CLI::App& program);
 command add_compare(CLI::App& program);
+command add_sweep(CLI::App& program);
 
 }  // namespace facet::cli

@@ -78,9 +78,9 @@ int run(int argc, char** argv) {
   program.footer(
       "Exit codes: 0 done, 2 usage, 3 scene or other input, 4 device or driver, 5 out of memory,\n"
       "6 output, 7 the picture holds NaN, 130 interrupted. `facet COMMAND --help` says more.");
-  const std::vector<cli::command> commands{cli::add_render(program), cli::add_trace(program),
+  const std::vector<cli::command> commands{cli::add_render(program),  cli::add_trace(program),
                                            cli::add_devices(program), cli::add_info(program),
-                                           cli::add_compare(program)};
+                                           cli::add_compare(program), cli::add_sweep(program)};
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& e) {  // --help, --version

@@ -9,6 +9,7 @@
 #include "image/compare.hpp"
 #include "reference/tracer.hpp"
 #include "study/fingerprint.hpp"
+#include "study/forecast.hpp"
 
 namespace facet::study {
 namespace {
@@ -22,14 +23,13 @@ double milliseconds_since(clock::time_point start) {
 /// Thrown inside, once `cancel` became true.
 struct stopped {};
 
-/// Counts the pictures of all experiments.
-struct counter {
+/// The forecast, told on.
+struct progress_of {
+  forecast& time;
   const tracer::progress& on_progress;
-  std::uint64_t total, done = 0;
 
-  void add(std::uint64_t pictures) {
-    done += pictures;
-    if (on_progress) on_progress(done, total);
+  void tell() const {
+    if (on_progress) on_progress(std::uint64_t(time.spent_ms()), std::uint64_t(time.total_ms()));
   }
 };
 
@@ -54,11 +54,11 @@ bool is_refusal(const runtime::exception& e) {
 class run {
  public:
   run(const runtime::queue& queue, const experiment& e, const sweep_settings& s,
-      experiment_result& r, counter& count, const std::atomic<bool>* cancel)
+      experiment_result& r, progress_of progress, const std::atomic<bool>* cancel)
       : of_(e),
         settings_(s),
         result_(r),
-        count_(count),
+        progress_(progress),
         cancel_(cancel),
         device_(queue, *e.what, options_for(e, s)) {
     describe();
@@ -69,19 +69,24 @@ class run {
   }
 
   void warm_up() {
-    for (shape_result& s : result_.shapes) warm_up(s);
+    for (std::uint32_t i = 0; i < result_.shapes.size(); ++i) {
+      warm_up(i);
+      progress_.tell();
+    }
     if (!serial_) return;
+    const auto start = clock::now();
     const picture p = serial_picture();
+    const double ms = picture_ms_.back() = milliseconds_since(start);
+    progress_.time.tried(ms, ms, settings_.serial_repeats);
     if (!expected_.rgba.empty())
       result_.serial.pixels_off = image::compare(expected_, p).pixels_off;
-    count_.add(1);
   }
 
   void measure() {
     for (const std::uint32_t which : shuffled()) {
       const bool is_serial = which == result_.shapes.size();
-      if (is_serial ? measure_serial() : measure(result_.shapes[which]))
-        result_.order.push_back(which);
+      if (is_serial ? measure_serial() : measure(which)) result_.order.push_back(which);
+      progress_.tell();
     }
   }
 
@@ -109,6 +114,7 @@ class run {
     result_.options = kernel.options;
     result_.group_items = kernel.group_items;
     for (const shape& of : settings_.shapes) result_.shapes.emplace_back().of = of;
+    picture_ms_.resize(result_.shapes.size() + 1);
   }
 
   picture render(const shape& s, tracer::statistics& stats) {
@@ -139,20 +145,22 @@ class run {
     return false;
   }
 
-  void warm_up(shape_result& s) {
+  void warm_up(std::uint32_t which) {
+    shape_result& s = result_.shapes[which];
     tracer::statistics stats;
     const auto start = clock::now();
     try {
       const picture p = render(s.of, stats);
       s.warm_up_ms = milliseconds_since(start);
+      picture_ms_[which] = stats.wall_ms;
       take_facts(stats);
-      if (verify(p, s)) return count_.add(1);
+      progress_.time.tried(s.warm_up_ms, stats.wall_ms, verify(p, s) ? settings_.repeats : 0);
     } catch (const runtime::exception& e) {
       if (!is_refusal(e)) throw;
       s.state = standing::refused;
       s.reason = e.what();
+      progress_.time.refused();
     }
-    count_.add(1 + settings_.repeats);
   }
 
   void take_facts(const tracer::statistics& stats) {
@@ -167,18 +175,19 @@ class run {
   }
 
   /// False if there is no time to show for it.
-  bool measure(shape_result& s) {
-    if (s.state != standing::unfinished) return false;  // refused or different: already counted
+  bool measure(std::uint32_t which) {
+    shape_result& s = result_.shapes[which];
+    if (s.state != standing::unfinished) return false;  // refused or different
     tracer::statistics stats;
     const picture p = render(s.of, stats);
     if (!verify(p, s)) {
-      count_.add(settings_.repeats - s.kernel.ms.size());
+      progress_.time.drop(picture_ms_[which], settings_.repeats - s.kernel.ms.size());
       return false;
     }
     s.kernel.ms.push_back(stats.kernel_ms.at(0));
     s.wall.ms.push_back(stats.wall_ms);
     if (s.kernel.ms.size() == settings_.repeats) s.state = standing::measured;
-    count_.add(1);
+    progress_.time.timed(stats.wall_ms, picture_ms_[which]);
     return true;
   }
 
@@ -195,7 +204,7 @@ class run {
     const auto start = clock::now();
     serial_picture();
     result_.serial.wall.ms.push_back(milliseconds_since(start));
-    count_.add(1);
+    progress_.time.timed(result_.serial.wall.ms.back(), picture_ms_.back());
     return true;
   }
 
@@ -213,12 +222,13 @@ class run {
   const experiment& of_;
   const sweep_settings& settings_;
   experiment_result& result_;
-  counter& count_;
+  progress_of progress_;
   const std::atomic<bool>* cancel_;
   tracer::device_scene device_;
   std::optional<reference::tracer<float>> serial_;
   picture expected_;
-  std::string first_;  ///< the shape that expected_ is of
+  std::string first_;               ///< the shape that expected_ is of
+  std::vector<double> picture_ms_;  ///< of each shape, and of the serial reference, to forecast
 };
 
 }  // namespace
@@ -226,9 +236,7 @@ class run {
 void run_sweep(const runtime::queue& queue, const std::vector<experiment>& experiments,
                const sweep_settings& settings, sweep_result& result,
                const tracer::progress& on_progress, const std::atomic<bool>* cancel) {
-  const std::uint64_t each = settings.shapes.size() * (1 + std::uint64_t(settings.repeats)) +
-                             (settings.serial_repeats ? 1 + settings.serial_repeats : 0);
-  counter count{on_progress, each * experiments.size()};
+  forecast time(experiments.size() * (settings.shapes.size() + (settings.serial_repeats ? 1 : 0)));
   result = {};
   result.device = facts_of(queue.get_device());
   result.cpu = cpu_name();
@@ -240,7 +248,7 @@ void run_sweep(const runtime::queue& queue, const std::vector<experiment>& exper
     if (cancel && cancel->load()) return;
     experiment_result& r = result.experiments.emplace_back();
     try {
-      run under_way(queue, e, settings, r, count, cancel);
+      run under_way(queue, e, settings, r, {time, on_progress}, cancel);
       under_way.warm_up();
       under_way.measure();
       r.complete = true;

@@ -29,7 +29,8 @@ struct experiment {
 /// Runs the experiments one after another. `result` holds what was measured so far at any time:
 /// also when `cancel` became true (the picture under way is dropped, and this returns), and when
 /// this throws what device_scene does. A shape that the device refuses, or whose picture differs,
-/// is marked and its remaining repeats left out; the others go on. `on_progress` counts pictures.
+/// is marked and its remaining repeats left out; the others go on. `on_progress` is called after
+/// each picture with the milliseconds spent so far, and expected in all.
 void run_sweep(const runtime::queue& queue, const std::vector<experiment>& experiments,
                const sweep_settings& settings, sweep_result& result,
                const tracer::progress& on_progress = {}, const std::atomic<bool>* cancel = nullptr);

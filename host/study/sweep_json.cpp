@@ -139,8 +139,10 @@ json to_json(const sweep_settings& s) {
 }  // namespace
 
 std::string to_json(const sweep_result& r) {
-  json experiments = json::array();
+  json experiments = json::array(), left_out = json::array();
   for (const experiment_result& e : r.experiments) experiments.push_back(to_json(e));
+  for (const omission& o : r.left_out)
+    left_out.push_back({{"experiment", o.experiment}, {"reason", o.reason}});
   return json_text({{"format", "facet-sweep"},
                     {"version", 1},
                     {"complete", r.complete},
@@ -149,7 +151,8 @@ std::string to_json(const sweep_result& r) {
                     {"device", to_json(r.device)},
                     {"cpu", r.cpu},
                     {"settings", to_json(r.settings)},
-                    {"experiments", std::move(experiments)}});
+                    {"experiments", std::move(experiments)},
+                    {"left_out", std::move(left_out)}});
 }
 
 }  // namespace facet::study

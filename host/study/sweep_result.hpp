@@ -83,6 +83,11 @@ struct experiment_result {
   bool complete = false;
 };
 
+/// An experiment that was not begun on purpose.
+struct omission {
+  std::string experiment, reason;
+};
+
 struct sweep_result {
   bool complete = false;
   device_facts device;
@@ -90,6 +95,7 @@ struct sweep_result {
   std::string version, commit, date;
   sweep_settings settings;
   std::vector<experiment_result> experiments;  ///< those begun
+  std::vector<omission> left_out;              ///< for the caller to fill in
 
   bool has_samples() const;
   /// A line each, naming experiment, shape and pixel.
