@@ -76,13 +76,6 @@ void add_device(CLI::App& app, std::string& target, bool serial_too) {
       ->type_name(serial_too ? "NAME|INDEX|serial" : "NAME|INDEX");
 }
 
-void add_tree(CLI::App& app, tracer::tree_kind& target) {
-  add_choice<tracer::tree_kind>(
-      app, "--tree", target,
-      {{"levels", tracer::tree_kind::levels}, {"none", tracer::tree_kind::none}},
-      "Tree over the triangles; none tests every triangle (default levels)");
-}
-
 void add_kernels(CLI::App& app, tracer::options& target) {
   add_choice<tracer::geometry_kind>(app, "--geometry", target.geometry,
                                     {{"auto", tracer::geometry_kind::automatic},
@@ -98,7 +91,10 @@ void add_kernels(CLI::App& app, tracer::options& target) {
 
 void add_tracing(CLI::App& app, tracing_options& target) {
   add_device(app, target.device, true);
-  add_tree(app, target.tracer.tree);
+  add_choice<tracer::tree_kind>(
+      app, "--tree", target.tracer.tree,
+      {{"levels", tracer::tree_kind::levels}, {"none", tracer::tree_kind::none}},
+      "Tree over the triangles; none tests every triangle (default levels)");
   add_kernels(app, target.tracer);
 }
 

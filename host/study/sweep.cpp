@@ -1,8 +1,8 @@
 #include "study/sweep.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
-#include <cstring>
 #include <optional>
 #include <random>
 
@@ -35,13 +35,15 @@ struct progress_of {
 
 /// Bits, not values: equal NaNs are equal, and 0 is not -0.
 void compare_bits(const picture& expected, const picture& found, shape_result& r) {
-  for (std::size_t i = 0; i < expected.rgba.size(); i += 4) {
-    if (std::memcmp(&expected.rgba[i], &found.rgba[i], 4 * sizeof(float)) == 0) continue;
-    if (r.differs++ == 0) {
-      r.differs_x = std::uint32_t(i / 4 % expected.width);
-      r.differs_y = std::uint32_t(i / 4 / expected.width);
+  const auto is_same = [](float a, float b) {
+    return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
+  };
+  for (std::uint32_t y = 0; y < expected.height; ++y)
+    for (std::uint32_t x = 0; x < expected.width; ++x) {
+      const float *a = expected.at(x, y), *b = found.at(x, y);
+      if (std::equal(a, a + 4, b, is_same)) continue;
+      if (r.differs++ == 0) r.differs_x = x, r.differs_y = y;
     }
-  }
 }
 
 /// Too large for the kernel or the device; registers run out only as the kernel is launched.

@@ -32,8 +32,8 @@ TEST_CASE("objects are opened up, lists of plain values stay on a line") {
 }
 
 TEST_CASE("long lists break at about 100 columns, and all reads back as it was") {
-  std::vector<double> many;
-  for (int i = 0; i < 200; ++i) many.push_back(1.0 / (i + 3));
+  std::vector<double> many(200);
+  for (std::size_t i = 0; i < many.size(); ++i) many[i] = 1 / double(i + 3);
   const json value{{"many", many}, {"strings", std::vector<std::string>(60, "16x16")}};
   const std::string text = json_text(value);
   std::size_t longest = 0, at = 0;
