@@ -1,4 +1,4 @@
-// What every row needs of the machine: the clock, the CPU, a file.
+// What every row needs of the machine: the clock, a file.
 #pragma once
 
 #include <functional>
@@ -8,9 +8,6 @@ namespace facet::bench {
 
 /// Seconds that one call takes, by the steady clock.
 double seconds(const std::function<void()>& work);
-
-/// The CPU's model from the system, or "unknown".
-std::string cpu_name();
 
 /// Throws std::runtime_error, naming the file, if it cannot be written.
 void write_text(const std::string& path, const std::string& text);

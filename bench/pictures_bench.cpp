@@ -10,6 +10,7 @@
 #include "runtime/runtime.hpp"
 #include "scene/load.hpp"
 #include "study/explain.hpp"
+#include "study/provenance.hpp"
 #include "study/statistics.hpp"
 #include "tracer/tracer.hpp"
 
@@ -78,7 +79,7 @@ nlohmann::json measure(const std::string& path, runtime::queue& queue, const set
 void run(const settings& o) {
   runtime::queue queue(runtime::select_device(o.device));
   nlohmann::json report{{"row", "pictures"},
-                        {"cpu", cpu_name()},
+                        {"cpu", study::cpu_name()},
                         {"repeat", o.repeat},
                         {"results", nlohmann::json::array()}};
   std::printf(

@@ -9,6 +9,7 @@
 #include "bench/measure.hpp"
 #include "bench/rows.hpp"
 #include "reference/tracer.hpp"
+#include "study/provenance.hpp"
 #include "study/statistics.hpp"
 
 namespace facet::bench {
@@ -73,7 +74,7 @@ void run(const settings& o) {
   if (peer_name.empty())
     std::printf("Built without Embree (libembree-dev): its figures are left out.\n");
   nlohmann::json report{{"row", "reference"},
-                        {"cpu", cpu_name()},
+                        {"cpu", study::cpu_name()},
                         {"compiler", __VERSION__},
                         {"threads", 1},
                         {"repeat", o.repeat}};

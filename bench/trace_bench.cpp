@@ -9,6 +9,7 @@
 #include "bench/measure.hpp"
 #include "bench/rows.hpp"
 #include "runtime/runtime.hpp"
+#include "study/provenance.hpp"
 #include "study/statistics.hpp"
 #include "tracer/tracer.hpp"
 
@@ -79,7 +80,7 @@ void run(const settings& o) {
   options.tree = o.tree == "none" ? tracer::tree_kind::none : tracer::tree_kind::levels;
   const std::string peer_name = embree_version();
   nlohmann::json report{{"row", "trace"},
-                        {"cpu", cpu_name()},
+                        {"cpu", study::cpu_name()},
                         {"repeat", o.repeat},
                         {"threads", o.threads},
                         {"tree", o.tree},

@@ -35,5 +35,6 @@ command add_devices(CLI::App& program);
 command add_info(CLI::App& program);
 command add_compare(CLI::App& program);
 command add_accuracy(CLI::App& program);
+command add_sweep(CLI::App& program);
 
 }  // namespace facet::cli

@@ -52,8 +52,7 @@ void print_rest(std::size_t count) {
 }
 
 void print(const scene& s) {
-  std::uint64_t placed = 0;
-  for (const instance& i : s.instances) placed += s.meshes[i.mesh].triangle_count();
+  const std::uint64_t placed = s.placed_triangle_count();
   const box3d box = world_box<double>(s);
   std::printf("scene       %s\n", s.name.c_str());
   std::printf("picture     %ux%u, depth %u, %u %s a pixel\n", s.width, s.height, s.max_depth,

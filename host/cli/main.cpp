@@ -81,7 +81,8 @@ int run(int argc, char** argv) {
       "`facet COMMAND --help` says more.");
   const std::vector<cli::command> commands{cli::add_render(program),  cli::add_trace(program),
                                            cli::add_devices(program), cli::add_info(program),
-                                           cli::add_compare(program), cli::add_accuracy(program)};
+                                           cli::add_compare(program), cli::add_accuracy(program),
+                                           cli::add_sweep(program)};
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& e) {  // --help, --version

@@ -38,6 +38,23 @@ generator_parameters parameters_of(const std::string& word, const std::string& k
   return parameters;
 }
 
+/// Is a word that is no mesh file the name of another, there or not?
+bool is_file(const std::string& word) {
+  std::error_code ignored;
+  if (fs::exists(word, ignored)) return true;
+  return fs::path(word).has_extension() && word.find(':') == std::string::npos;
+}
+
+mesh generated(const std::string& word) {
+  const std::size_t colon = word.find(':');
+  const std::string kind = word.substr(0, colon);
+  // generate() checks the kind; without one there is no parameter to speak of.
+  const generator_parameters parameters = colon == std::string::npos || size_parameter(kind).empty()
+                                              ? generator_parameters{}
+                                              : parameters_of(word, kind, word.substr(colon + 1));
+  return generate(kind, parameters);
+}
+
 scene scene_of_parts(std::string name, mesh m) {
   scene s;
   s.name = std::move(name);
@@ -62,25 +79,20 @@ std::string size_parameter(const std::string& kind) {
 }
 
 scene scene_of_word(const std::string& word) {
-  const fs::path path(word);
-  if (is_mesh_file(path)) {
-    mesh_file file = read_mesh_file(path);
+  if (is_mesh_file(word)) {
+    mesh_file file = read_mesh_file(word);
     scene s = scene_of_parts(word, std::move(file.mesh));
     s.notes = std::move(file.notes);
     return s;
   }
-  std::error_code ignored;
-  if (path.has_extension() || fs::exists(path, ignored)) {
-    const std::size_t colon = word.find(':');
-    if (colon == std::string::npos || fs::exists(path, ignored)) return load_scene(path);
-  }
-  const std::size_t colon = word.find(':');
-  const std::string kind = word.substr(0, colon);
-  // generate() checks the kind; without one there is no parameter to speak of.
-  const generator_parameters parameters = colon == std::string::npos || size_parameter(kind).empty()
-                                              ? generator_parameters{}
-                                              : parameters_of(word, kind, word.substr(colon + 1));
-  return scene_of_parts(word, generate(kind, parameters));
+  return is_file(word) ? load_scene(word) : scene_of_parts(word, generated(word));
+}
+
+scene picture_of_word(const std::string& word) {
+  if (is_mesh_file(word) || is_file(word)) return load_scene(word);
+  mesh m = generated(word);
+  m.materials.clear();
+  return scene_of_mesh({std::move(m), {}, {}}, word);
 }
 
 }  // namespace facet::cli

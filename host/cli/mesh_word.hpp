@@ -1,4 +1,4 @@
-// What `facet trace` traces: a file, or a generator in a word.
+// What is traced, as the command line names it: a file, or a generator in a word.
 #pragma once
 
 #include <string>
@@ -13,6 +13,11 @@ namespace facet::cli {
 /// The scene is good for tracing rays; its camera and materials may be made up.
 /// Throws scene_error.
 scene scene_of_word(const std::string& word);
+
+/// The same words as scenes that a picture can be made of: a scene file as it is; of a mesh file
+/// and a generator camera, light and material are made up (scene_of_mesh), and the notes say so.
+/// Throws scene_error.
+scene picture_of_word(const std::string& word);
 
 /// The name of a generator's parameter that a bare number sets; "" if there is no such kind.
 std::string size_parameter(const std::string& kind);

@@ -64,28 +64,38 @@ CLI::Option* add_size(CLI::App& app, const std::string& name, size& target, std:
       ->type_name("WxH");
 }
 
-void add_tracing(CLI::App& app, tracing_options& target) {
-  app.add_option(
-         "-d,--device", target.device,
-         "Device: an index of `facet devices`, a part of its name in any case, \"serial\"\n"
-         "(one CPU thread, no OpenCL) or \"serial-double\" (the same in double precision).\n"
-         "Default: the first GPU, or else the first device")
-      ->type_name("NAME|INDEX|serial");
-  add_choice<tracer::tree_kind>(
-      app, "--tree", target.tracer.tree,
-      {{"levels", tracer::tree_kind::levels}, {"none", tracer::tree_kind::none}},
-      "Tree over the triangles; none tests every triangle (default levels)");
-  add_choice<tracer::geometry_kind>(app, "--geometry", target.tracer.geometry,
+void add_device(CLI::App& app, std::string& target, bool serial_too) {
+  const std::string serial =
+      serial_too ? ", a part of its name in any case, \"serial\"\n"
+                   "(one CPU thread, no OpenCL) or \"serial-double\" (the same in double "
+                   "precision).\nDefault: "
+                 : ", or a part of its name in any case\n(default: ";
+  app.add_option("-d,--device", target,
+                 "Device: an index of `facet devices`" + serial +
+                     "the first GPU, or else the first device" + (serial_too ? "" : ")"))
+      ->type_name(serial_too ? "NAME|INDEX|serial" : "NAME|INDEX");
+}
+
+void add_kernels(CLI::App& app, tracer::options& target) {
+  add_choice<tracer::geometry_kind>(app, "--geometry", target.geometry,
                                     {{"auto", tracer::geometry_kind::automatic},
                                      {"buffer", tracer::geometry_kind::buffer},
                                      {"image", tracer::geometry_kind::image}},
                                     "Where the device reads vertices from (default auto: what was\n"
                                     "measured to be faster on this kind of device)");
-  app.add_option("--kernels", target.tracer.kernel_folder,
+  app.add_option("--kernels", target.kernel_folder,
                  "Read the OpenCL C files from this folder, not from the program")
       ->type_name("DIR");
-  app.add_flag("--all-features", target.tracer.all_features,
-               "Compile what the scene does not need, too");
+  app.add_flag("--all-features", target.all_features, "Compile what the scene does not need, too");
+}
+
+void add_tracing(CLI::App& app, tracing_options& target) {
+  add_device(app, target.device, true);
+  add_choice<tracer::tree_kind>(
+      app, "--tree", target.tracer.tree,
+      {{"levels", tracer::tree_kind::levels}, {"none", tracer::tree_kind::none}},
+      "Tree over the triangles; none tests every triangle (default levels)");
+  add_kernels(app, target.tracer);
 }
 
 void refuse_with_serial(const CLI::App& app, std::initializer_list<const char*> names) {

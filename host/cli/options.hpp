@@ -37,6 +37,10 @@ struct tracing_options {
   bool serial_double() const { return device == "serial-double"; }
 };
 
+/// --device; `serial_too`: the serial tracers can be chosen.
+void add_device(CLI::App& app, std::string& target, bool serial_too);
+/// --geometry, --kernels, --all-features
+void add_kernels(CLI::App& app, tracer::options& target);
 /// --device, --tree, --geometry, --kernels, --all-features
 void add_tracing(CLI::App& app, tracing_options& target);
 

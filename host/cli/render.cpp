@@ -1,7 +1,6 @@
 // facet render: from a scene to a picture.
 #include <CLI/CLI.hpp>
 #include <chrono>
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -13,6 +12,7 @@
 #include "cli/memory.hpp"
 #include "cli/options.hpp"
 #include "cli/picture_file.hpp"
+#include "cli/picture_size.hpp"
 #include "cli/progress.hpp"
 #include "cli/stats_file.hpp"
 #include "image/output.hpp"
@@ -42,25 +42,9 @@ struct picture_shape {
   std::uint32_t width, height, max_depth;
 };
 
-/// The other side of a picture of which one side is given, by the scene's own aspect.
-std::uint32_t other_side(double given, double from, double to, const char* name) {
-  const double side = std::max(1.0, std::round(given * to / from));
-  if (side > limits::image_side)
-    throw usage_error(std::string("the picture's ") + name + " would be " +
-                      std::to_string(std::uint64_t(side)) + " pixels; at most " +
-                      std::to_string(limits::image_side) + " are allowed");
-  return std::uint32_t(side);
-}
-
 picture_shape shape_of(const arguments& o, const scene& s) {
-  picture_shape p{s.width, s.height, o.app->count("--max-depth") ? o.max_depth : s.max_depth};
-  if (o.width && o.height)
-    p.width = o.width, p.height = o.height;
-  else if (o.width)
-    p.width = o.width, p.height = other_side(o.width, s.width, s.height, "height");
-  else if (o.height)
-    p.height = o.height, p.width = other_side(o.height, s.height, s.width, "width");
-  return p;
+  const size p = picture_size({o.width, o.height}, {s.width, s.height});
+  return {p.width, p.height, o.app->count("--max-depth") ? o.max_depth : s.max_depth};
 }
 
 [[noreturn]] void interrupted_at(const arguments& o, std::uint64_t done, std::uint64_t total) {
@@ -168,7 +152,7 @@ int run(const arguments& o) {
                                                    : render_on_device(o, s, p, stats);
   o.say.detail("compiled in " + duration_text(stats.compile_ms) + ", built in " +
                duration_text(stats.build_ms) + ", traced in " +
-               duration_text(median(stats.kernel_ms)));
+               duration_text(stats.kernel_ms.at(0)));
   if (!stats.geometry.empty())
     o.say.detail("geometry: " + stats.geometry + "; features: " + stats.features +
                  "; work-group: " + std::to_string(stats.group_width) + "x" +
@@ -193,12 +177,7 @@ command add_render(CLI::App& program) {
                   "The picture, by its extension: .png (8 bits), .exr or .npy (linear floats)")
       ->type_name("FILE")
       ->required();
-  app->add_option("--width", o->width, "Pixels; alone it keeps the scene's aspect ratio")
-      ->type_name("N")
-      ->check(whole_number(1, side, "pixels"));
-  app->add_option("--height", o->height, "Pixels; alone it keeps the scene's aspect ratio")
-      ->type_name("N")
-      ->check(whole_number(1, side, "pixels"));
+  add_picture_size(*app, o->width, o->height);
   app->add_option("--max-depth", o->max_depth,
                   "Bounces; 0 traces eye rays and shadows alone (default: the scene's)")
       ->type_name("N")

@@ -1,22 +1,14 @@
 #include "cli/stats_file.hpp"
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "image/output.hpp"
+#include "study/statistics.hpp"
 
 namespace facet::cli {
 
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  return (*std::max_element(values.begin(), middle) + *middle) / 2;
-}
-
 nlohmann::ordered_json to_json(const tracer::statistics& s) {
-  const double kernel_ms = median(s.kernel_ms);
+  const double kernel_ms = study::summarize(s.kernel_ms).median;
   return {{"version", FACET_VERSION},
           {"device", s.device},
           {"platform", s.platform},

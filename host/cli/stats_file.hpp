@@ -3,13 +3,10 @@
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
-#include <vector>
 
 #include "tracer/tracer.hpp"
 
 namespace facet::cli {
-
-double median(std::vector<double> values);
 
 /// The fields of tracer::statistics; kernel_ms is the median, kernel_ms_all the list, mrays_per_s
 /// follows from the median.

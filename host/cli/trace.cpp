@@ -107,14 +107,9 @@ void name_as_in_file(std::vector<tracer::hit>& hits, const scene& s) {
 }
 
 void check_outputs(const arguments& o) {
-  namespace fs = std::filesystem;
-  const auto same = [](const std::string& a, const std::string& b) {
-    std::error_code ignored;
-    return fs::absolute(a).lexically_normal() == fs::absolute(b).lexically_normal() ||
-           (fs::is_regular_file(a, ignored) && fs::equivalent(a, b, ignored));
-  };
-  if (same(o.hits, o.rays)) throw usage_error("--hits would overwrite the rays, " + o.rays);
-  if (!o.stats.empty() && (same(o.stats, o.hits) || same(o.stats, o.rays)))
+  using image::same_file;
+  if (same_file(o.hits, o.rays)) throw usage_error("--hits would overwrite the rays, " + o.rays);
+  if (!o.stats.empty() && (same_file(o.stats, o.hits) || same_file(o.stats, o.rays)))
     throw usage_error("--stats would overwrite " + o.stats + ", which --rays or --hits names");
   image::check_output(o.hits);
   if (!o.stats.empty()) image::check_output(o.stats);

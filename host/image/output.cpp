@@ -123,6 +123,12 @@ void check_output(const fs::path& target) {
   output_file probe(target);
 }
 
+bool same_file(const fs::path& a, const fs::path& b) {
+  std::error_code ignored;
+  return fs::absolute(a).lexically_normal() == fs::absolute(b).lexically_normal() ||
+         (fs::is_regular_file(a, ignored) && fs::equivalent(a, b, ignored));
+}
+
 void write_file(const fs::path& target, std::string_view content) {
   write_file(target, std::as_bytes(std::span(content)));
 }

@@ -57,6 +57,9 @@ class output_file {
 /// temporary file is created beside it and removed. What is there is not touched.
 void check_output(const std::filesystem::path& target);
 
+/// Do both name one file? Compared by name where one of them is not there.
+bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);
+
 /// The whole file at once.
 void write_file(const std::filesystem::path& target, std::string_view content);
 void write_file(const std::filesystem::path& target, std::span<const std::byte> content);

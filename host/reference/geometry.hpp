@@ -1,5 +1,5 @@
-// A scene's triangles and where its instances put them; rays against them, through trees or by
-// brute force. Both roads end in triangle.hpp, so both give the same bits.
+// A scene's triangles and where its instances put them; rays against them, with trees or without.
+// All roads end in triangle.hpp, so all give the same bits.
 #pragma once
 
 #include <cstdint>
@@ -37,7 +37,11 @@ struct placement {
   bool is_plain;      ///< seen from here a ray is what it is in the world, extent included
 };
 
-enum class road { tree, brute_force };
+enum class road {
+  tree,
+  scan,         ///< no tree, and fast without: all triangles of each instance whose box is met
+  brute_force,  ///< nothing is left out: what the others are held against
+};
 
 template <class T>
 class geometry {

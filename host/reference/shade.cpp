@@ -77,8 +77,8 @@ void shader<T>::path::note(std::uint64_t value) {
 template <class T>
 typename shader<T>::result shader<T>::trace(const vec3<T>& origin, const vec3<T>& direction,
                                             std::span<const std::uint32_t> around,
-                                            std::uint32_t max_depth) const {
-  path p{max_depth, {}};
+                                            std::uint32_t max_depth, road by) const {
+  path p{max_depth, by, {}};
   media start(scene_.nesting);
   for (auto k = around.rbegin(); k != around.rend(); ++k) start.enter(*k);
   const bool hit = shade(p, origin, direction, {1, 1, 1}, 0, start);
@@ -153,7 +153,7 @@ void shader<T>::light_up(path& p, const lamp& l, const surface<T>& s, std::uint3
     shadow.tmax = length(way);
     shadow.direction = way / shadow.tmax;
   }
-  const passage<T> way = pass(shadow, at_start, road::tree);
+  const passage<T> way = pass(shadow, at_start, p.by);
   p.note(way.met + (same_side ? 1 : 2));
   if (way.is_dark()) return;
 
@@ -170,7 +170,7 @@ void shader<T>::light_up(path& p, const lamp& l, const surface<T>& s, std::uint3
 template <class T>
 bool shader<T>::shade(path& p, const vec3<T>& o, const vec3<T>& d, vec3<T> throughput,
                       std::uint32_t depth, const media& around) const {
-  const hit<T> h = geometry_.closest({o, 0, d, infinity<T>}, road::tree);
+  const hit<T> h = geometry_.closest({o, 0, d, infinity<T>}, p.by);
   p.note(std::uint64_t(h.instance) << 32 | h.triangle);
   if (!h) {
     p.sum = p.sum + throughput * vec3<T>(scene_.background);

@@ -35,7 +35,7 @@ class shader {
   };
   /// `around` are the materials of the media around the origin, innermost first.
   result trace(const vec3<T>& origin, const vec3<T>& direction,
-               std::span<const std::uint32_t> around, std::uint32_t max_depth) const;
+               std::span<const std::uint32_t> around, std::uint32_t max_depth, road by) const;
 
   /// Light passing along r, whose origin lies in `around`; `r.tmax` is the distance of the light,
   /// or infinite. Each surface dims by Kt, each way inside by Beer-Lambert; opaque ones by all.
@@ -60,6 +60,7 @@ class shader {
   /// One eye ray under way: what its tree of rays adds to.
   struct path {
     std::uint32_t max_depth;
+    road by;
     vec3<T> sum;
     std::uint64_t crowded = 0, signature = 0;
 

@@ -42,11 +42,42 @@ struct tracer<T>::state {
       : source(s), world(s), light(s, world), around_camera(media_at(s, s.view.position)) {}
 
   /// Along one eye ray of a film, which need not be that of the scene's camera.
-  auto trace(const film<T>& f, T x, T y, std::uint32_t max_depth) const {
+  auto trace(const film<T>& f, T x, T y, std::uint32_t max_depth, road by) const {
     const vec3<T> direction = f.through(x, y).direction;
     if (f.origin == vec3<T>(source.view.position))
-      return light.trace(f.origin, direction, around_camera, max_depth);
-    return light.trace(f.origin, direction, media_at(source, vec3d(f.origin)), max_depth);
+      return light.trace(f.origin, direction, around_camera, max_depth, by);
+    return light.trace(f.origin, direction, media_at(source, vec3d(f.origin)), max_depth, by);
+  }
+
+  picture render(road by, std::uint32_t width, std::uint32_t height, std::uint32_t max_depth,
+                 const progress& on_progress, std::uint64_t* crowded) const {
+    check_camera_media(source, around_camera);
+    if (crowded) *crowded = 0;
+    const film<T> f(frame_of(source.view, width, height));
+    const std::uint32_t n = source.samples;
+    picture out(width, height);
+    for (std::uint32_t y = 0; y < height; ++y) {
+      for (std::uint32_t x = 0; x < width; ++x) {
+        vec3<T> sum;
+        T alpha = 0;
+        for (std::uint32_t j = 0; j < n; ++j)
+          for (std::uint32_t i = 0; i < n; ++i) {
+            const T sx = T(x) + (T(i) + T(0.5)) / T(n), sy = T(y) + (T(j) + T(0.5)) / T(n);
+            const auto r = trace(f, sx, sy, max_depth, by);
+            sum = sum + r.radiance;
+            alpha += r.hit ? T(1) : T(source.background_alpha);
+            if (crowded) *crowded += r.crowded;
+          }
+        const T rays = T(n * n);
+        const vec3<T> colour = sum / rays;
+        float* p = out.at(x, y);
+        p[0] = float(colour.x), p[1] = float(colour.y), p[2] = float(colour.z);
+        p[3] = float(alpha / rays);
+      }
+      const auto row = std::uint64_t(width);
+      if (on_progress && !on_progress(row * (y + 1), row * height)) break;
+    }
+    return out;
   }
 };
 
@@ -96,47 +127,25 @@ vec3<T> tracer<T>::transmittance_brute(const ray<T>& r, std::uint32_t medium) co
 
 template <class T>
 std::array<T, 4> tracer<T>::pixel(const film<T>& f, T x, T y, std::uint32_t max_depth) const {
-  const auto r = state_->trace(f, x, y, max_depth);
+  const auto r = state_->trace(f, x, y, max_depth, road::tree);
   const vec3<T>& c = r.radiance;
   return {c.x, c.y, c.z, r.hit ? T(1) : T(state_->source.background_alpha)};
 }
 
 template <class T>
 std::uint64_t tracer<T>::signature(const film<T>& f, T x, T y, std::uint32_t max_depth) const {
-  return state_->trace(f, x, y, max_depth).signature;
+  return state_->trace(f, x, y, max_depth, road::tree).signature;
 }
 
 template <class T>
 picture tracer<T>::render(std::uint32_t width, std::uint32_t height, std::uint32_t max_depth,
                           const progress& on_progress, std::uint64_t* crowded) const {
-  const scene& source = state_->source;
-  check_camera_media(source, state_->around_camera);
-  if (crowded) *crowded = 0;
-  const film<T> f(frame_of(source.view, width, height));
-  const std::uint32_t n = source.samples;
-  picture out(width, height);
-  for (std::uint32_t y = 0; y < height; ++y) {
-    for (std::uint32_t x = 0; x < width; ++x) {
-      vec3<T> sum;
-      T alpha = 0;
-      for (std::uint32_t j = 0; j < n; ++j)
-        for (std::uint32_t i = 0; i < n; ++i) {
-          const T sx = T(x) + (T(i) + T(0.5)) / T(n), sy = T(y) + (T(j) + T(0.5)) / T(n);
-          const auto r = state_->trace(f, sx, sy, max_depth);
-          sum = sum + r.radiance;
-          alpha += r.hit ? T(1) : T(source.background_alpha);
-          if (crowded) *crowded += r.crowded;
-        }
-      const T rays = T(n * n);
-      const vec3<T> colour = sum / rays;
-      float* p = out.at(x, y);
-      p[0] = float(colour.x), p[1] = float(colour.y), p[2] = float(colour.z);
-      p[3] = float(alpha / rays);
-    }
-    const auto row = std::uint64_t(width);
-    if (on_progress && !on_progress(row * (y + 1), row * height)) break;
-  }
-  return out;
+  return state_->render(road::tree, width, height, max_depth, on_progress, crowded);
+}
+template <class T>
+picture tracer<T>::render_without_tree(std::uint32_t width, std::uint32_t height,
+                                       std::uint32_t max_depth, const progress& on_progress) const {
+  return state_->render(road::scan, width, height, max_depth, on_progress, nullptr);
 }
 
 template class tracer<float>;

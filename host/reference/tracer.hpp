@@ -71,6 +71,10 @@ class tracer {
   /// scene::nesting of them. Throws scene_error if the camera is in more.
   picture render(std::uint32_t width, std::uint32_t height, std::uint32_t max_depth,
                  const progress& on_progress = {}, std::uint64_t* crowded = nullptr) const;
+  /// The same bits by a program that has no trees: each ray is tested against all triangles of the
+  /// instances whose boxes it meets, as fast as that goes.
+  picture render_without_tree(std::uint32_t width, std::uint32_t height, std::uint32_t max_depth,
+                              const progress& on_progress = {}) const;
 
  private:
   struct state;

@@ -73,12 +73,24 @@ bool geometry<T>::visit(const ray<T>& r, const T& limit, road by, Visit&& v) con
       const unsigned mask = beside_filter(object, b);
       return mask != 0 && decide(b, mask);
     };
+    if (by == road::scan) {
+      for (std::uint32_t block = 0; block < m.blocks.size(); ++block)
+        if (leaf(block)) return true;
+      return false;
+    }
     return walk(m.tree, p.is_plain ? world_slabs : loose_slabs<T>(object), tmin, limit, leaf);
   };
 
-  if (by == road::brute_force) {
-    for (std::uint32_t i = 0; i < placements_.size(); ++i)
-      if (!placements_[i].world_box.empty() && enter(i)) return true;
+  if (by != road::tree) {
+    const auto meets = [&](const box3<T>& box) {
+      const interval<T> way = world.slab(box);
+      return way.near <= way.far;
+    };
+    for (std::uint32_t i = 0; i < placements_.size(); ++i) {
+      const box3<T>& box = placements_[i].world_box;
+      if (box.empty() || (by == road::scan && !meets(box))) continue;
+      if (enter(i)) return true;
+    }
     return false;
   }
   return walk(tree_, world_slabs, tmin, limit,

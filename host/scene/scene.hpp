@@ -86,6 +86,12 @@ struct scene {
     for (const auto& m : meshes) n += m.triangle_count();
     return n;
   }
+  /// Of all instances: what a ray is tested against without a tree.
+  std::uint64_t placed_triangle_count() const {
+    std::uint64_t n = 0;
+    for (const auto& i : instances) n += meshes[i.mesh].triangle_count();
+    return n;
+  }
 };
 
 }  // namespace facet

@@ -57,10 +57,24 @@ class tiler {
   std::uint32_t left_ = 0, top_ = 0;
 };
 
+struct group_size {
+  std::uint32_t width, height;  ///< 0 x 0: the driver chooses
+};
+
+group_size group_of(const options& o, const tuning& t) {
+  if (o.driver_group) return {0, 0};
+  return {o.group_width ? o.group_width : t.render_group_width,
+          o.group_height ? o.group_height : t.render_group_height};
+}
+
 /// The tile padded to whole work-groups; the kernel guards.
-runtime::nd_range<2> range_of(const tile& t, std::uint32_t w, std::uint32_t h) {
-  const std::size_t columns = (t.right - t.left + w - 1) / w, rows = (t.bottom - t.top + h - 1) / h;
-  return {runtime::range<2>(columns * w, rows * h), runtime::range<2>(w, h)};
+void launch_over(runtime::handler& h, const tile& t, group_size g, const runtime::kernel& kernel) {
+  const std::size_t width = t.right - t.left, height = t.bottom - t.top;
+  if (g.width == 0) return h.parallel_for(runtime::range<2>(width, height), kernel);
+  const std::size_t columns = (width + g.width - 1) / g.width,
+                    rows = (height + g.height - 1) / g.height;
+  h.parallel_for(runtime::nd_range<2>({columns * g.width, rows * g.height}, {g.width, g.height}),
+                 kernel);
 }
 
 void check_size(std::uint32_t width, std::uint32_t height, std::uint32_t max_depth) {
@@ -84,12 +98,9 @@ picture device_scene::render(std::uint32_t width, std::uint32_t height, std::uin
   state& s = *state_;
   check_camera_media(s.model, s.camera_media);
   const View view = pack_view(s.model, s.camera_media, width, height, max_depth);
-  const std::uint32_t w = s.chosen.group_width ? s.chosen.group_width : s.tuned.render_group_width;
-  const std::uint32_t h =
-      s.chosen.group_height ? s.chosen.group_height : s.tuned.render_group_height;
+  const group_size group = group_of(s.chosen, s.tuned);
   runtime::kernel kernel = s.render_kernel(max_depth);
 
-  const auto start = std::chrono::steady_clock::now();
   const std::uint64_t total = std::uint64_t(width) * height;
   runtime::buffer<View> view_buffer(&view, 1);
   runtime::buffer<texel> pixels(total);
@@ -104,17 +115,18 @@ picture device_scene::render(std::uint32_t width, std::uint32_t height, std::uin
       g.set_arg(k++, t.top);
       g.set_arg(k++, t.right);
       g.set_arg(k++, t.bottom);
-      g.parallel_for(range_of(t, w, h), kernel);
+      launch_over(g, t, group, kernel);
     });
   };
 
   // The first launch of a work-group size may compile (PoCL does): one pixel pays for it.
   launch({0, 0, 1, 1}).wait_and_throw();
   s.clear_faults();
+  const auto start = std::chrono::steady_clock::now();
   std::uint64_t done = 0;
   double kernel_ms = 0;
   std::uint32_t tiles = 0;
-  tiler tiles_left(width, height, s.chosen, h);
+  tiler tiles_left(width, height, s.chosen, std::max(1u, group.height));
   for (tile t{}; tiles_left.next(t);) {
     if (cancel && cancel->load()) throw cancelled(done, total);
     const runtime::event finished = launch(t);
@@ -137,8 +149,8 @@ picture device_scene::render(std::uint32_t width, std::uint32_t height, std::uin
     s.describe(*stats);
     stats->kernel_ms = {kernel_ms};
     stats->rays = total * s.model.samples * s.model.samples;
-    stats->group_width = w;
-    stats->group_height = h;
+    stats->group_width = group.width;
+    stats->group_height = group.height;
     stats->tiles = tiles;
     const Faults faults = s.read_faults();
     stats->refused = faults.refused;

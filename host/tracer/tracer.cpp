@@ -9,6 +9,8 @@
 namespace facet::tracer {
 namespace {
 
+constexpr const char* render_file = "render.cl";
+
 /// A scene's camera, surroundings and lights: what later pictures need of it.
 scene without_meshes(const scene& s) {
   scene shell;
@@ -68,6 +70,21 @@ device_scene::~device_scene() = default;
 device_scene::device_scene(device_scene&&) noexcept = default;
 device_scene& device_scene::operator=(device_scene&&) noexcept = default;
 
+void device_scene::set_work_group(std::uint32_t width, std::uint32_t height) {
+  state_->chosen.group_width = width;
+  state_->chosen.group_height = height;
+  state_->chosen.driver_group = false;
+}
+
+void device_scene::leave_work_group_to_driver() { state_->chosen.driver_group = true; }
+
+kernel_description device_scene::describe_render(std::uint32_t max_depth) {
+  state& s = *state_;
+  const runtime::kernel kernel = s.render_kernel(max_depth);
+  return {runtime::expand(s.kernels, render_file), s.render_program->options(),
+          kernel.work_group_size(s.queue.get_device())};
+}
+
 runtime::kernel device_scene::state::trace_kernel(bool any) {
   if (!trace_program)
     trace_program = compiled(
@@ -78,7 +95,7 @@ runtime::kernel device_scene::state::trace_kernel(bool any) {
 
 runtime::kernel device_scene::state::render_kernel(std::uint32_t max_depth) {
   if (!render_program || render_stack < max_depth) {
-    render_program = compiled(queue, kernels, "render.cl",
+    render_program = compiled(queue, kernels, render_file,
                               traversal_options(used, model.nesting, chosen.tree, in_images,
                                                 geometry.stack, max_depth, tuned));
     render_stack = max_depth;

@@ -28,6 +28,7 @@ struct options {
   tree_kind tree = tree_kind::levels;
   geometry_kind geometry = geometry_kind::automatic;
   std::uint32_t group_width = 0, group_height = 0;  ///< work-group; 0: the device's default
+  bool driver_group = false;                        ///< the driver chooses the work-group instead
   std::uint32_t tile_width = 0, tile_height = 0;    ///< pixels a launch; 0: about 50 ms each
   bool all_features = false;                        ///< compile what the scene does not need, too
   std::string kernel_folder;                        ///< read cl/ from here, not from the library
@@ -81,9 +82,9 @@ struct statistics {
   double upload_ms = 0;           ///< packing and moving the scene, host clock
   double build_ms = 0;            ///< tree, host clock from first launch to last
   std::vector<double> kernel_ms;  ///< trace: one a repeat; render: the sum over the tiles, once
-  double wall_ms = 0;             ///< launching until the result is on the host
+  double wall_ms = 0;             ///< first timed launch until the result is on the host
   std::uint64_t rays = 0;         ///< trace: those given; render: eye rays
-  std::uint32_t group_width = 0, group_height = 0;
+  std::uint32_t group_width = 0, group_height = 0;  ///< 0 where the driver chose
   std::uint32_t tiles = 0;
   std::string geometry;  ///< "image" or "buffer", as chosen
   std::string features;  ///< what the kernel was compiled with, comma-separated
@@ -95,6 +96,13 @@ struct statistics {
   std::uint64_t refused = 0;
   /// Times that a ray entered a transparent object while it was in scene::nesting of them.
   std::uint64_t crowded = 0;
+};
+
+/// A kernel as compiled.
+struct kernel_description {
+  std::string text;             ///< its source, all includes expanded
+  std::string options;          ///< the compiler's flags
+  std::size_t group_items = 0;  ///< the most work-items of a group that it can have
 };
 
 /// Called after each tile with done and total pixels.
@@ -120,6 +128,14 @@ class device_scene {
   picture render(std::uint32_t width, std::uint32_t height, std::uint32_t max_depth,
                  statistics* stats = nullptr, const progress& on_progress = {},
                  const std::atomic<bool>* cancel = nullptr);
+
+  /// The work-group of later pictures, as options has it: 0 x 0 is the device's default.
+  void set_work_group(std::uint32_t width, std::uint32_t height);
+  /// The driver chooses the work-group of later pictures.
+  void leave_work_group_to_driver();
+
+  /// The kernel of pictures of that depth; compiles it unless that was done before.
+  kernel_description describe_render(std::uint32_t max_depth);
 
   /// Traces `rays`; `any` stops at the first accepted triangle and fills only instance and
   /// triangle with 0 for a hit (which one is not defined), t, u, v with 0.

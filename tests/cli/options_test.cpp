@@ -39,7 +39,8 @@ TEST_CASE("--version and --help are no errors, and help names every command and 
   CHECK(version.out.rfind("facet ", 0) == 0);
   const outcome help = run({"--help"});
   CHECK(help.code == 0);
-  for (const char* word : {"render", "trace", "devices", "info", "compare", "130 interrupted"})
+  for (const char* word :
+       {"render", "trace", "devices", "info", "compare", "sweep", "130 interrupted"})
     CHECK(contains(help.out, word));
 }
 

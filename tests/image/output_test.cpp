@@ -150,3 +150,16 @@ TEST_CASE("checking a pipe neither waits for its reader nor ends it") {
   image::check_output(folder / "pipe");
   CHECK(fs::is_fifo(folder / "pipe"));
 }
+
+TEST_CASE(
+    "one file by two names is the same file, there or not; two files with one content are not") {
+  const test::temporary_folder folder;
+  put(folder / "a", "content");
+  put(folder / "b", "content");
+  fs::create_symlink(folder / "a", folder / "link");
+  CHECK(image::same_file(folder / "a", folder.path() / "." / "a"));
+  CHECK(image::same_file(folder / "a", folder / "link"));
+  CHECK(image::same_file(folder / "none", folder.path() / "." / "none"));
+  CHECK(!image::same_file(folder / "a", folder / "b"));
+  CHECK(!image::same_file(folder / "a", folder / "none"));
+}

@@ -44,6 +44,20 @@ TEST_CASE("a pixel of one sample is the eye ray through its centre") {
     }
 }
 
+TEST_CASE("a picture without trees has the same bits: glass, shadows, a mesh under the identity") {
+  scene plain;
+  plain.view.position = {1, 1, 3};
+  test::add(plain, generate("torus_knot", {{"segments", 40}, {"sides", 6}}), material{}, {});
+  plain.lights.resize(1);
+  plain.lights[0].position = {2, 4, 3};
+  for (const scene& s : {still_life(), plain}) {
+    const tracer<float> single(s);
+    CHECK(single.render_without_tree(32, 24, 4).rgba == single.render(32, 24, 4).rgba);
+    const tracer<double> oracle(s);
+    CHECK(oracle.render_without_tree(16, 12, 4).rgba == oracle.render(16, 12, 4).rgba);
+  }
+}
+
 TEST_CASE("samples are the mean over a regular grid, alpha too") {
   scene s = still_life();
   s.samples = 2;

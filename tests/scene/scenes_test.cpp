@@ -66,7 +66,8 @@ TEST_CASE("every scene loads without a note, and the schema accepts it") {
   }
 }
 
-TEST_CASE("transparent objects touch no other: boxes are apart, in a room or, nested, in one another") {
+TEST_CASE(
+    "transparent objects touch no other: boxes are apart, in a room or, nested, in one another") {
   for (const auto& file : scene_files()) {
     const scene s = facet::load_scene(file);
     std::vector<box3d> boxes;

@@ -1,7 +1,9 @@
 #include "scene/schema_helper.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <regex>
 #include <set>
 #include <stdexcept>
 #include <vector>
@@ -16,6 +18,7 @@ bool has_type(const json& value, const std::string& type) {
   if (type == "array") return value.is_array();
   if (type == "string") return value.is_string();
   if (type == "boolean") return value.is_boolean();
+  if (type == "null") return value.is_null();
   if (type == "number") return value.is_number();
   if (type == "integer")
     return value.is_number() && value.get<double>() == std::floor(value.get<double>());
@@ -47,7 +50,24 @@ std::string size_fault(const json& value, const std::string& keyword, std::size_
   return fits ? "" : keyword + " is " + std::to_string(bound);
 }
 
-std::string object_fault(const json& value, const json& schema, const std::string& place) {
+/// Rules of one schema, whose references start at its root.
+class checker {
+ public:
+  explicit checker(const json& root) : root_(root) {}
+
+  std::string fault(const json& value, const json& schema, const std::string& place) const;
+
+ private:
+  std::string object_fault(const json& value, const json& schema, const std::string& place) const;
+  std::string array_fault(const json& value, const json& schema, const std::string& place) const;
+  std::string logic_fault(const json& value, const std::string& keyword, const json& rules,
+                          const std::string& place) const;
+
+  const json& root_;
+};
+
+std::string checker::object_fault(const json& value, const json& schema,
+                                  const std::string& place) const {
   if (!value.is_object()) return "";
   const json none = json::object();
   const json& properties = schema.contains("properties") ? schema["properties"] : none;
@@ -60,37 +80,87 @@ std::string object_fault(const json& value, const json& schema, const std::strin
       if (!rule->get<bool>()) return place + ": the key " + key + " is not allowed";
       continue;
     }
-    const std::string fault = schema_fault(member, *rule, place + '/' + key);
-    if (!fault.empty()) return fault;
+    const std::string found = fault(member, *rule, place + '/' + key);
+    if (!found.empty()) return found;
   }
   return "";
 }
 
-std::string array_fault(const json& value, const json& schema, const std::string& place) {
+std::string checker::array_fault(const json& value, const json& schema,
+                                 const std::string& place) const {
   if (!value.is_array()) return "";
   const std::size_t prefix = schema.contains("prefixItems") ? schema["prefixItems"].size() : 0;
   for (std::size_t i = 0; i < value.size(); ++i) {
     if (i >= prefix && !schema.contains("items")) break;
     const json& rule = i < prefix ? schema["prefixItems"][i] : schema["items"];
-    const std::string fault = schema_fault(value[i], rule, place + '/' + std::to_string(i));
-    if (!fault.empty()) return fault;
+    const std::string found = fault(value[i], rule, place + '/' + std::to_string(i));
+    if (!found.empty()) return found;
   }
   return "";
 }
 
 /// allOf, anyOf, oneOf and not.
-std::string logic_fault(const json& value, const std::string& keyword, const json& rules,
-                        const std::string& place) {
-  if (keyword == "not") return schema_fault(value, rules, place).empty() ? "is forbidden" : "";
+std::string checker::logic_fault(const json& value, const std::string& keyword, const json& rules,
+                                 const std::string& place) const {
+  if (keyword == "not") return fault(value, rules, place).empty() ? "is forbidden" : "";
   std::size_t kept = 0;
   std::string last;
   for (const json& rule : rules) {
-    const std::string fault = schema_fault(value, rule, place);
-    fault.empty() ? void(++kept) : void(last = fault);
+    const std::string found = fault(value, rule, place);
+    found.empty() ? void(++kept) : void(last = found);
   }
   if (keyword == "allOf") return last;
   const bool fits = keyword == "anyOf" ? kept > 0 : kept == 1;
   return fits ? "" : keyword + " keeps " + std::to_string(kept) + " (" + last + ")";
+}
+
+std::string checker::fault(const json& value, const json& schema, const std::string& place) const {
+  static const std::set<std::string> annotations{"$schema", "$defs", "title", "description",
+                                                 "default"};
+  static const std::set<std::string> numbers{"minimum", "maximum", "exclusiveMinimum",
+                                             "exclusiveMaximum"};
+  static const std::set<std::string> sizes{"minItems", "maxItems", "minProperties",
+                                           "maxProperties"};
+  static const std::set<std::string> logic{"allOf", "anyOf", "oneOf", "not"};
+  std::string found = object_fault(value, schema, place);
+  if (found.empty()) found = array_fault(value, schema, place);
+  if (!found.empty()) return found;
+  for (const auto& [keyword, rule] : schema.items()) {
+    if (keyword == "type")
+      found = type_fault(value, rule);
+    else if (keyword == "const")
+      found = value == rule ? "" : "is not " + rule.dump();
+    else if (keyword == "enum")
+      found = std::find(rule.begin(), rule.end(), value) != rule.end()
+                  ? ""
+                  : "is none of " + rule.dump();
+    else if (keyword == "pattern")
+      found = !value.is_string() || std::regex_search(value.get<std::string>(),
+                                                      std::regex(rule.get<std::string>()))
+                  ? ""
+                  : "does not match " + rule.dump();
+    else if (numbers.count(keyword))
+      found = number_fault(value, keyword, rule.get<double>());
+    else if (sizes.count(keyword))
+      found = size_fault(value, keyword, rule.get<std::size_t>());
+    else if (logic.count(keyword))
+      found = logic_fault(value, keyword, rule, place);
+    else if (keyword == "$ref")
+      found = fault(value, root_.at(json::json_pointer(rule.get<std::string>().substr(1))), place);
+    else if (keyword == "required")
+      for (const json& key : rule)
+        if (value.is_object() && !value.contains(key.get<std::string>()))
+          found = "lacks " + key.dump();
+    const bool known = annotations.count(keyword) || numbers.count(keyword) ||
+                       sizes.count(keyword) || logic.count(keyword) || keyword == "type" ||
+                       keyword == "const" || keyword == "enum" || keyword == "pattern" ||
+                       keyword == "$ref" || keyword == "required" || keyword == "properties" ||
+                       keyword == "additionalProperties" || keyword == "items" ||
+                       keyword == "prefixItems";
+    if (!known) throw std::logic_error("unknown keyword " + keyword);
+    if (!found.empty()) return place + ": " + found;
+  }
+  return "";
 }
 
 }  // namespace
@@ -101,44 +171,8 @@ const json& scene_schema() {
   return schema;
 }
 
-std::string schema_fault(const json& value, const json& schema, const std::string& place) {
-  static const std::set<std::string> annotations{"$schema", "$defs", "title", "description",
-                                                 "default"};
-  static const std::set<std::string> numbers{"minimum", "maximum", "exclusiveMinimum",
-                                             "exclusiveMaximum"};
-  static const std::set<std::string> sizes{"minItems", "maxItems", "minProperties",
-                                           "maxProperties"};
-  static const std::set<std::string> logic{"allOf", "anyOf", "oneOf", "not"};
-  std::string fault = object_fault(value, schema, place);
-  if (fault.empty()) fault = array_fault(value, schema, place);
-  if (!fault.empty()) return fault;
-  for (const auto& [keyword, rule] : schema.items()) {
-    if (keyword == "type")
-      fault = type_fault(value, rule);
-    else if (keyword == "const")
-      fault = value == rule ? "" : "is not " + rule.dump();
-    else if (numbers.count(keyword))
-      fault = number_fault(value, keyword, rule.get<double>());
-    else if (sizes.count(keyword))
-      fault = size_fault(value, keyword, rule.get<std::size_t>());
-    else if (logic.count(keyword))
-      fault = logic_fault(value, keyword, rule, place);
-    else if (keyword == "$ref")
-      fault = schema_fault(
-          value, scene_schema().at(json::json_pointer(rule.get<std::string>().substr(1))), place);
-    else if (keyword == "required")
-      for (const json& key : rule)
-        if (value.is_object() && !value.contains(key.get<std::string>()))
-          fault = "lacks " + key.dump();
-    const bool known = annotations.count(keyword) || numbers.count(keyword) ||
-                       sizes.count(keyword) || logic.count(keyword) || keyword == "type" ||
-                       keyword == "const" || keyword == "$ref" || keyword == "required" ||
-                       keyword == "properties" || keyword == "additionalProperties" ||
-                       keyword == "items" || keyword == "prefixItems";
-    if (!known) throw std::logic_error("unknown keyword " + keyword);
-    if (!fault.empty()) return place + ": " + fault;
-  }
-  return "";
+std::string schema_fault(const json& value, const json& schema) {
+  return checker(schema).fault(value, schema, "");
 }
 
 }  // namespace facet::test

@@ -1,4 +1,4 @@
-// A checker for the part of JSON Schema 2020-12 that scenes/facet-scene.schema.json uses.
+// A checker for the part of JSON Schema 2020-12 that Facet's schemas use.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -6,13 +6,12 @@
 
 namespace facet::test {
 
-/// The published schema.
+/// The published schema of scenes.
 const nlohmann::json& scene_schema();
 
 /// The first fault of `value` under `schema` ("/camera: not an object"), or "" if there is none.
-/// References are resolved in scene_schema(). Throws std::logic_error for a keyword that it does
-/// not know, so that no rule of the schema is passed over in silence.
-std::string schema_fault(const nlohmann::json& value, const nlohmann::json& schema,
-                         const std::string& place = "");
+/// Throws std::logic_error for a keyword that it does not know, so that no rule of the schema is
+/// passed over in silence.
+std::string schema_fault(const nlohmann::json& value, const nlohmann::json& schema);
 
 }  // namespace facet::test

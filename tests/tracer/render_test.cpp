@@ -50,6 +50,41 @@ TEST_CASE("trees, geometry, work-groups, tiles and feature sets all give the sam
   }
 }
 
+TEST_CASE("the work-group can change between pictures, and be the driver's: no bit does") {
+  const scene s = test::every_feature();
+  const picture expected = render(s);
+  options o;
+  o.group_width = 4, o.group_height = 2;
+  o.tile_width = s.width, o.tile_height = s.height;
+  device_scene on_device(test::queue(), s, o);
+  tracer::statistics stats;
+  const auto rendered = [&] { return on_device.render(s.width, s.height, s.max_depth, &stats); };
+  CHECK(same_bits(rendered(), expected));
+  CHECK(stats.group_width == 4);
+  on_device.leave_work_group_to_driver();
+  CHECK(same_bits(rendered(), expected));
+  CHECK(stats.group_width == 0);
+  CHECK(stats.group_height == 0);
+  on_device.set_work_group(1, 16);
+  CHECK(same_bits(rendered(), expected));
+  CHECK(stats.group_width == 1);
+  CHECK(stats.group_height == 16);
+  CHECK(stats.tiles == 1);
+}
+
+TEST_CASE("the render kernel is described as compiled: text, options, and its largest group") {
+  device_scene on_device(test::queue(), test::every_feature());
+  const auto d = on_device.describe_render(9);
+  CHECK(d.text.find("__kernel void render(") != std::string::npos);
+  CHECK(d.text.find("#include \"") == std::string::npos);
+  CHECK(d.options.find("-DFACET_RAY_STACK=16") != std::string::npos);
+  REQUIRE(d.group_items >= 1);
+  on_device.set_work_group(std::uint32_t(d.group_items), 2);
+  CHECK_THROWS_WITH_AS(on_device.render(8, 8, 1),
+                       doctest::Contains(std::to_string(d.group_items).c_str()),
+                       runtime::exception);
+}
+
 TEST_CASE("leaving out what a scene does not use changes no bit, feature by feature") {
   scene s = test::every_feature();
   options all;
