@@ -1,5 +1,5 @@
 // The same picture on every device, bit for bit: each scene of scenes/ against a hash of its float
-// pixels. PoCL and an NVIDIA H200 gave these; FACET_TEST_DEVICE asks another device.
+// pixels. PoCL and an NVIDIA H200 gave the same; FACET_TEST_DEVICE asks another device.
 #include <doctest/doctest.h>
 
 #include <bit>
@@ -24,11 +24,13 @@ std::uint64_t hash_of(const picture& p) {
   return hash;
 }
 
-/// By scene, at a third of its size. A change of the picture is a change here, and is to be meant.
+/// By scene, at a third of its size; an H200 has confirmed those without a remark. A change of the
+/// picture is a change here, and is to be meant.
 const std::map<std::string, std::uint64_t> expected{
-    {"glass_shadow", 0xc3cf85d7abb291ebu}, {"nested_glass", 0x9c517c80b5f6480cu},
-    {"room", 0x26cfc80c8dc220adu},         {"showcase", 0x34e4b8047f6e3556u},
-    {"sphereflake", 0x29fe99de44dd5166u},  {"terrain", 0xb21752be79805e8du},
+    {"glass_shadow", 0xc3cf85d7abb291ebu}, {"knot", 0x28df663160fab50bu},  // PoCL alone, so far
+    {"nested_glass", 0x9c517c80b5f6480cu}, {"room", 0x26cfc80c8dc220adu},
+    {"showcase", 0x34e4b8047f6e3556u},     {"sphereflake", 0x29fe99de44dd5166u},
+    {"terrain", 0xb21752be79805e8du},
 };
 
 }  // namespace
