@@ -27,8 +27,10 @@ for target in spir64-unknown-unknown nvptx64-nvidia-nvcl amdgcn-amd-amdhsa; do
     done
     echo "$target render.cl$options"
     echo "$target trace.cl$options"
-    echo "$target probe.cl$options"
   done
+  # What render.cl is made of, asked one by one: with everything, and with all left out.
+  echo "$target probe.cl"
+  echo "$target probe.cl${derived[*]/#/ -D}"
   for kernel in morton.cl levels.cl tree.cl "radix_sort.cl -DKEY=uint" "radix_sort.cl -DKEY=ulong"; do
     echo "$target $kernel"
   done
