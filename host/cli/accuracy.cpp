@@ -130,10 +130,7 @@ command add_accuracy(CLI::App& program) {
           },
           "", "rays"));
   app->add_option("--seed", o->seed, "Of rays and scenes (default 1)")->type_name("N");
-  app->add_option("-d,--device", o->device,
-                  "Device: an index of `facet devices`, or a part of its name in any case.\n"
-                  "Default: the first GPU, or else the first device")
-      ->type_name("NAME|INDEX");
+  add_device(*app, o->device, false);
   app->add_flag(
       "--mistakes", o->with_mistakes,
       "Run each case also with the mistake in the kernels that it is there to catch, and\n"

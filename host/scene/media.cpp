@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 
 #include "scene/error.hpp"
@@ -50,9 +51,12 @@ std::vector<std::uint32_t> media_at(const scene& s, vec3d p) {
     std::uint32_t material;
   };
   std::vector<around> found;
+  // Bounds are a pass over a mesh: once for each that is asked for, not for each of its instances.
+  std::vector<std::optional<box3f>> bounds(s.meshes.size());
   for (const instance& i : s.instances) {
     if (!shows_glass(s, i)) continue;
-    const box3d box = world_box<double>(i, s.meshes[i.mesh]);
+    if (!bounds[i.mesh]) bounds[i.mesh] = s.meshes[i.mesh].bounds();
+    const box3d box = world_box<double>(i.world_from_object, *bounds[i.mesh]);
     if (!holds(box, p)) continue;
     const std::vector<double> windings = winding_numbers(s.meshes[i.mesh], s.materials.size(),
                                                          i.world_from_object.inverse().point(p));

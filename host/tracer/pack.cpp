@@ -83,12 +83,14 @@ packed_scene pack(const scene& s, bool with_normals) {
   if (with_normals) p.normals.reserve(3 * total);
   p.triangle_materials.reserve(total);
 
+  std::vector<box3f> bounds(s.meshes.size());
   for (std::size_t k = 0; k < s.meshes.size(); ++k) {
     packed_mesh placed;
     placed.first_triangle = std::uint32_t(p.triangle_materials.size());
     if (is_shown[k]) {
       pack_mesh(s.meshes[k], with_normals, p);
-      placed.reach = reach_of(s.meshes[k].bounds());
+      bounds[k] = s.meshes[k].bounds();
+      placed.reach = reach_of(bounds[k]);
     }
     placed.triangle_count = std::uint32_t(p.triangle_materials.size()) - placed.first_triangle;
     p.meshes.push_back(placed);
@@ -100,7 +102,7 @@ packed_scene pack(const scene& s, bool with_normals) {
     Instance q{};
     put(q.world_from_object, i.world_from_object);
     put(q.object_from_world, i.world_from_object.inverse());
-    const box3f box = world_box<float>(i, s.meshes[i.mesh]);
+    const box3f box = world_box<float>(i.world_from_object, bounds[i.mesh]);
     put(q.lo, box.lo), put(q.hi, box.hi);
     std::copy(m.reach.begin(), m.reach.end(), q.reach);
     q.id = std::uint32_t(k);

@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "reference/tracer.hpp"
-#include "scene/error.hpp"
 #include "scene/mesh_file.hpp"
 #include "study/cases/families.hpp"
 #include "study/cases/oracle.hpp"

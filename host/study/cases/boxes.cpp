@@ -1,6 +1,5 @@
 // Slabs and nodes: zeros in directions, boxes without a thickness, coordinates of any size.
 #include <cmath>
-#include <cstring>
 
 #include "reference/tracer.hpp"
 #include "study/cases/exact.hpp"
