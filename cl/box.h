@@ -31,12 +31,11 @@ typedef struct {
   float near, far;
 } Interval;
 
-// reach: largest |coordinate| of the space's whole box, by axis. largest: max |d_i|, not 0.
+// extent: E, of the space's whole box. largest: max |d_i|, not 0.
 // A component below largest * 2^-60 is raised to it: no infinity arises, and the pad covers the
 // change, as t * |d_i| differs by less than 2^-60 E.
-static inline Slabs slabs_of(float3 o, float3 d, float3 reach, float largest) {
-  const float3 e = fabs(o) + reach;
-  const float pad = (24.0f * FACET_ULP) * larger(e.x, larger(e.y, e.z));
+static inline Slabs slabs_of(float3 o, float3 d, float extent, float largest) {
+  const float pad = (24.0f * FACET_ULP) * extent;
   const float least = largest * 8.673617379884035e-19f;
   const float3 raised = (float3)(fabs(d.x) < least ? copysign(least, d.x) : d.x,
                                  fabs(d.y) < least ? copysign(least, d.y) : d.y,

@@ -39,10 +39,11 @@ static inline Scene scene_of(__global const World* w, __global const Node* nodes
 #define FACET_CROSSINGS 2u // the optical depth of what is transparent, until something is not
 
 typedef struct {
-  float t, u, v;  // u and v times det until the search has ended
-  float det;
-  uint instance, triangle;  // ids in the scene; FACET_NONE: nothing met
-  uint place, slot;         // where they stand in memory: instance and triangle in leaf order
+  float t;
+  uint place, slot;  // of the hit, in memory: instance and triangle in leaf order; FACET_NONE: none
+  // Of the closest hit, once the search has ended (finish); triangle is FACET_NONE if nothing is met.
+  uint instance, triangle;  // ids in the scene
+  float u, v;
   // FACET_CROSSINGS: where media end that are still open, and what has been crossed, in units of
   // 2^-32 (an integer, so that the order of the crossings cannot reach the sum).
   float t_end;
@@ -76,6 +77,21 @@ static inline void add_crossing(Query* q, __global const Material* m, float t, b
     q->depth[c] += fixed_depth(m->minus_ln_Kt[c]) + fixed_depth(inside * m->sigma[c]);
 }
 
+static inline uint instance_of(const Scene* s, uint place) {
+#ifdef FACET_NO_INSTANCES
+  return 0u;
+#else
+  return s->instances[place].id;
+#endif
+}
+
+// Whether of two hits at one distance a triangle comes before the query's own.
+static inline bool is_before(const Scene* s, uint place, uint slot, const Query* q) {
+  const uint instance = instance_of(s, place), best = instance_of(s, q->place);
+  return instance < best ||
+         (instance == best && s->infos[slot].triangle < s->infos[q->slot].triangle);
+}
+
 // Tests one triangle; true if the query is answered.
 static inline bool meet_triangle(const Scene* s, GEOMETRY positions, const Space* space, uint place,
                           Interval outer, uint slot, float tmin, uint mode, Query* q) {
@@ -96,20 +112,8 @@ static inline bool meet_triangle(const Scene* s, GEOMETRY positions, const Space
     q->triangle = 0u;
     return true;
   }
-  const uint triangle = s->infos[slot].triangle;
-#ifdef FACET_NO_INSTANCES
-  const uint instance = 0u;
-#else
-  const uint instance = s->instances[place].id;
-#endif
-  if (hit.t == q->t && (instance > q->instance || (instance == q->instance && triangle >= q->triangle)))
-    return false;
+  if (hit.t == q->t && q->slot != FACET_NONE && !is_before(s, place, slot, q)) return false;
   q->t = hit.t;
-  q->u = hit.v;
-  q->v = hit.w;
-  q->det = hit.det;
-  q->instance = instance;
-  q->triangle = triangle;
   q->place = place;
   q->slot = slot;
   return false;
@@ -234,16 +238,34 @@ static inline void search(const Scene* s, GEOMETRY positions, float3 o, float3 d
 
 #endif
 
+// Says which triangle the closest hit is on, and where. A search keeps no more of a hit than its t and
+// its place in memory: registers that it has not to hold.
+static inline void finish(const Scene* s, GEOMETRY positions, float3 o, float3 d, Space* space,
+                          Query* q) {
+  if (q->slot == FACET_NONE) return;
+  q->triangle = s->infos[q->slot].triangle;
+  q->instance = instance_of(s, q->place);
+#ifndef FACET_NO_INSTANCES
+  __global const Instance* i = &s->instances[q->place];
+  space_of(space, map_point(i->object_from_world, o), map_vector(i->object_from_world, d),
+           vec_global(i->reach));
+#endif
+  float3 p0, p1, p2;
+  read_triangle(positions, q->slot, &p0, &p1, &p2);
+  const float2 shares = shares_of(space, p0, p1, p2);
+  q->u = shares.x;
+  q->v = shares.y;
+}
+
 // A ray that cannot be used (triangle.h: space_of), or whose tmin or tmax is NaN, meets nothing and
 // is counted; a negative tmin counts as 0. For a miss t is tmax. `end`: see light.h.
 static inline Query traverse_to(const Scene* s, GEOMETRY positions, float3 o, float3 d, float tmin,
                                 float tmax, float end, uint mode) {
   Query q;
   q.t = tmax;
+  q.place = q.slot = FACET_NONE;
   q.u = q.v = 0.0f;
-  q.det = 1.0f;
   q.instance = q.triangle = FACET_NONE;
-  q.place = q.slot = 0u;
   q.depth[0] = q.depth[1] = q.depth[2] = 0;
   q.t_end = end;
 #ifdef FACET_COUNT_CROSSINGS
@@ -258,8 +280,7 @@ static inline Query traverse_to(const Scene* s, GEOMETRY positions, float3 o, fl
   }
   if (s->triangle_count == 0u) return q;
   search(s, positions, o, d, start, mode, &space, &q);
-  q.u = q.u / q.det;
-  q.v = q.v / q.det;
+  if (mode == FACET_CLOSEST) finish(s, positions, o, d, &space, &q);
   return q;
 }
 

@@ -15,17 +15,25 @@
 typedef struct {
   float3 o;
   Slabs slabs;
-  float3 shear;      // d_x / d_z, d_y / d_z, 1 / d_z in permuted axes
-  uint axis;         // of the largest |d_i|: the permuted z
-  bool is_negative;  // d_z < 0: a triangle's front is seen from its other side
+  uint axis;        // of the largest |d_i|
+  bool is_turned;   // what turns counter-clockwise as seen by the ray turns clockwise once sheared
+  float2 shear;     // d_x / d_z, d_y / d_z of the swapped direction
+  float unit;       // 2^-e, e being the exponent of E (box.h): sheared z stay below 2
+  float t_of_unit;  // 2^e / d_z: what a sheared z of 1 is in t
 } Space;
+
+// The main axis changes places with z, which takes fewer choices than moving all three in a circle.
+static inline float3 swapped(uint axis, float3 a) {
+  return (float3)(axis == 0u ? a.z : a.x, axis == 1u ? a.z : a.y,
+                  axis == 0u ? a.x : axis == 1u ? a.y : a.z);
+}
 
 // False if the direction cannot be used: not finite, 0, or its largest component outside
 // 2^-60 to 2^60; or an origin beyond 2^60. Such a ray meets nothing.
 static inline bool space_of(Space* s, float3 o, float3 d, float3 reach) {
   const float3 a = fabs(d);
   s->axis = a.y > a.x ? (a.z > a.y ? 2u : 1u) : (a.z > a.x ? 2u : 0u);
-  const float largest = s->axis == 0u ? a.x : s->axis == 1u ? a.y : a.z;
+  const float largest = larger(a.x, larger(a.y, a.z));
   const float3 p = fabs(o);
   // The negated comparison refuses a NaN in any component.
   if (!(a.x <= 1.152921504606847e18f && a.y <= 1.152921504606847e18f &&
@@ -33,23 +41,23 @@ static inline bool space_of(Space* s, float3 o, float3 d, float3 reach) {
         p.x <= 1.152921504606847e18f && p.y <= 1.152921504606847e18f &&
         p.z <= 1.152921504606847e18f))
     return false;
-  const float dz = s->axis == 0u ? d.x : s->axis == 1u ? d.y : d.z;
-  const float dx = s->axis == 0u ? d.y : s->axis == 1u ? d.z : d.x;
-  const float dy = s->axis == 0u ? d.z : s->axis == 1u ? d.x : d.y;
+  const float3 main = swapped(s->axis, d);
   s->o = o;
-  s->is_negative = dz < 0.0f;
-  s->shear = (float3)(dx / dz, dy / dz, 1.0f / dz);
-  s->slabs = slabs_of(o, d, reach, largest);
+  s->is_turned = (main.z < 0.0f) != (s->axis != 2u);
+  s->shear = (float2)(main.x / main.z, main.y / main.z);
+  const float3 e = fabs(o) + reach;
+  const float extent = larger(e.x, larger(e.y, e.z));
+  const uint exponent = as_uint(larger(extent, 0x1p-60f)) & 0x7f800000u;
+  s->unit = as_float(0x7f000000u - exponent);
+  s->t_of_unit = 1.0f / main.z * as_float(exponent);
+  s->slabs = slabs_of(o, d, extent, largest);
   return true;
 }
 
 // A corner relative to the ray, sheared so that the ray is the z axis from the origin on.
 static inline float3 shear_corner(const Space* s, float3 corner) {
-  const float3 a = corner - s->o;
-  const float z = s->axis == 0u ? a.x : s->axis == 1u ? a.y : a.z;
-  const float x = s->axis == 0u ? a.y : s->axis == 1u ? a.z : a.x;
-  const float y = s->axis == 0u ? a.z : s->axis == 1u ? a.x : a.y;
-  return (float3)(x - s->shear.x * z, y - s->shear.y * z, s->shear.z * z);
+  const float3 a = swapped(s->axis, corner - s->o);
+  return (float3)(a.x - s->shear.x * a.z, a.y - s->shear.y * a.z, s->unit * a.z);
 }
 
 // p.x * q.y - p.y * q.x by Kahan's method: within 2 u of it, so 0 only if it is 0 in the reals
@@ -73,7 +81,6 @@ static inline float edge_sign(float e, float3 p, float3 q) {
 
 typedef struct {
   float t;
-  float v, w, det;  // the hit's u is v / det, its v is w / det: divided once, for the last hit
   bool is_front;    // the ray enters through the side on which the corners turn counter-clockwise
   bool is_counted;  // this triangle, not a neighbour, owns the edge or corner that is met
 } TriangleHit;
@@ -100,11 +107,12 @@ static inline bool hold_to_boxes(const Space* s, float3 p0, float3 p1, float3 p2
 // come out, each within 2u of the edge function of the sheared corners, b = u / (u+v+w) and so on are
 // shares of a point P of the triangle, in its box. The sheared corners are off by 6u E, and their mean
 // by these shares would be 0 but for 4u E, by the identity of the edge functions: P lies within 10u E
-// of the ray where P's distance along the main axis is t. t itself is off by 9u E (each z by 3u, the
-// sum and its quotient by 6u). The slabs are off by 4u E: together 23u E, on any axis, whatever the
-// angle, for an error of t moves P within the triangle. The pad is 24u E.
-// Edge functions have lost no more than 2^-147 to underflow: with |det| >= 2^-120 that is below
-// u E / 2, and with |top| >= 2^-100 that of its products is below u |t|.
+// of the ray where P's distance along the main axis is t. t itself is off by 9u E (each z by u, the sum
+// and its quotient by 6u, 1 / d_z and its product by 2u). The slabs are off by 4u E: together 23u E, on
+// any axis, whatever the angle, for an error of t moves P within the triangle. The pad is 24u E.
+// Nothing overflows: x and y are below 2^62, edge functions below 2^125, z at most 2. Edge
+// functions have lost no more than 2^-147 to underflow: with |det| >= 2^-120 that is below u E / 2, and
+// with |top| >= 2^-100 that of its products is below u |t|.
 static inline bool hit_triangle(const Space* s, float3 p0, float3 p1, float3 p2, Interval outer,
                          float tmin, float tmax, bool count, TriangleHit* hit) {
   const float3 a = shear_corner(s, p0), b = shear_corner(s, p1), c = shear_corner(s, p2);
@@ -116,25 +124,27 @@ static inline bool hit_triangle(const Space* s, float3 p0, float3 p1, float3 p2,
   const float det = (u + v) + w;
   if (det == 0.0f) return false;
   const float top = (u * a.z + v * b.z) + w * c.z;
-  float t = top / det;
-  const bool is_sure = fabs(top) >= 0x1p-100f && fabs(det) >= 0x1p-120f && fabs(t) < INFINITY &&
-                       t >= outer.near && t <= outer.far;
-  if (!is_sure) {
-    if (!(fabs(t) < INFINITY)) t = ((u / det) * a.z + (v / det) * b.z) + (w / det) * c.z;
-    if (!hold_to_boxes(s, p0, p1, p2, outer, &t)) return false;
-  }
+  float t = top / det * s->t_of_unit;
+  const bool is_sure = fabs(top) >= 0x1p-100f && fabs(det) >= 0x1p-120f && t >= outer.near &&
+                       t <= outer.far;
+  if (!is_sure && !hold_to_boxes(s, p0, p1, p2, outer, &t)) return false;
   if (!(t >= tmin && t <= tmax)) return false;
   hit->t = t;
-  hit->v = v;
-  hit->w = w;
-  hit->det = det;
-  hit->is_front = (det > 0.0f) != s->is_negative;
   if (count) {
     const float su = edge_sign(u, c, b), sv = edge_sign(v, a, c), sw = edge_sign(w, b, a);
     hit->is_counted = (su > 0.0f && sv > 0.0f && sw > 0.0f) || (su < 0.0f && sv < 0.0f && sw < 0.0f);
-    hit->is_front = (su > 0.0f) != s->is_negative;
+    hit->is_front = (su > 0.0f) != s->is_turned;
   }
   return true;
+}
+
+// Where the ray meets a triangle that hit_triangle has accepted: the hit's u and v, the shares of p1
+// and p2. Computed anew for the one triangle that is left when a search has ended.
+static inline float2 shares_of(const Space* s, float3 p0, float3 p1, float3 p2) {
+  const float3 a = shear_corner(s, p0), b = shear_corner(s, p1), c = shear_corner(s, p2);
+  const float u = edge_function(c, b), v = edge_function(a, c), w = edge_function(b, a);
+  const float det = (u + v) + w;
+  return (float2)(v / det, w / det);
 }
 
 #endif

@@ -48,9 +48,11 @@ struct axes {
 template <class T>
 struct space {
   vec3<T> origin;
-  int kx, ky, kz;   ///< kz: the direction's largest axis; the other two follow it in a circle
-  bool down;        ///< against that axis: corners that turn left then turn right
-  T Sx, Sy, Sz;     ///< the shear that maps the direction to +z
+  int kx, ky, kz;  ///< kz: the direction's largest axis, which changes places with z
+  bool turned;     ///< corners that turn left turn right in these axes
+  T Sx, Sy;        ///< the shear that maps the direction to the z axis
+  T unit;       ///< 2^-e, e being the exponent of E: makes z at most 2, so that nothing overflows
+  T t_of_unit;  ///< 2^e / d_z: what a z of 1 is in t
   vec3<T> inverse;  ///< 1 / direction, bounded
   vec3<T> reach;    ///< |origin| + the largest |coordinate| of the boxes, by axis
   T pad;            ///< what slabs are widened by, in units of length
@@ -63,12 +65,16 @@ struct space {
     kz = a.y > a.x ? 1 : 0;
     kz = a.z > std::max(a.x, a.y) ? 2 : kz;
     const axes<T> direction(d);
-    down = direction[kz] < 0;
-    kx = kz == 2 ? 0 : kz + 1, ky = kz == 0 ? 2 : kz - 1;
-    Sx = direction[kx] / direction[kz], Sy = direction[ky] / direction[kz], Sz = 1 / direction[kz];
+    kx = kz == 0 ? 2 : 0, ky = kz == 1 ? 2 : 1;
+    turned = (direction[kz] < 0) != (kz != 2);
+    Sx = direction[kx] / direction[kz], Sy = direction[ky] / direction[kz];
 
     reach = abs(o) + extent;
-    pad = 24 * unit_roundoff<T> * std::max(std::max(reach.x, reach.y), reach.z);
+    const T E = std::max(std::max(reach.x, reach.y), reach.z);
+    const int exponent = std::ilogb(std::max(E, T(0x1p-60)));
+    unit = std::ldexp(T(1), -exponent);
+    t_of_unit = std::ldexp(1 / direction[kz], exponent);
+    pad = 24 * unit_roundoff<T> * E;
     const T least = std::abs(direction[kz]) * T(0x1p-60);
     for (int i = 0; i < 3; ++i) {
       inverse[i] = 1 / (a[i] < least ? std::copysign(least, d[i]) : d[i]);

@@ -19,7 +19,8 @@ box3<T> bounds_of(const corners<T>& p) {
   return {min(min(p[0], p[1]), p[2]), max(max(p[0], p[1]), p[2])};
 }
 
-/// A corner seen along the ray: the ray runs along +z through the origin of x and y.
+/// A corner seen along the ray, which runs along z through the origin of x and y; z in units of
+/// 2^e.
 template <class T>
 struct sheared {
   T x, y, z;
@@ -28,7 +29,7 @@ struct sheared {
     const axes<T> a(corner - s.origin);
     x = a[s.kx] - s.Sx * a[s.kz];
     y = a[s.ky] - s.Sy * a[s.kz];
-    z = s.Sz * a[s.kz];
+    z = s.unit * a[s.kz];
   }
 };
 
@@ -69,10 +70,7 @@ class triangle_test {
     if ((u_ < 0 || v_ < 0 || w_ < 0) && (u_ > 0 || v_ > 0 || w_ > 0)) return {};
     const T det = (u_ + v_) + w_;
     if (det == 0) return {};
-    T t = ((u_ * a_.z + v_ * b_.z) + w_ * c_.z) / det;
-    // Only coordinates beyond 2^40 or so come here: the products overflowed, the quotients cannot.
-    if (!(std::abs(t) < infinity<T>))
-      t = ((u_ / det) * a_.z + (v_ / det) * b_.z) + (w_ / det) * c_.z;
+    T t = ((u_ * a_.z + v_ * b_.z) + w_ * c_.z) / det * space_.t_of_unit;
     const interval<T> slab = space_.slab(bounds_of(p_)).meet(outer);
     if (!(slab.near <= slab.far)) return {};
     t = t < slab.near ? slab.near : t;
@@ -88,7 +86,7 @@ class triangle_test {
   int side() const {
     const int u = shifted_sign(u_, c_, b_);
     if (u != shifted_sign(v_, a_, c_) || u != shifted_sign(w_, b_, a_)) return 0;
-    return space_.down ? -u : u;
+    return space_.turned ? -u : u;
   }
 
  private:

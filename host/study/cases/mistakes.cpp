@@ -1,47 +1,18 @@
 #include "study/cases/mistakes.hpp"
 
+#include "study/kernel_edits.hpp"
+
 namespace facet::study {
 namespace {
 
-/// The test of Moeller and Trumbore (1997) in place of ours.
-const char* const moller_trumbore_test = R"(
-static inline bool hit_triangle(const Space* s, float3 p0, float3 p1, float3 p2, Interval outer,
-                                float tmin, float tmax, bool count, TriangleHit* hit) {
-  const float3 z = s->axis == 0u ? (float3)(1.0f, s->shear.x, s->shear.y)
-                 : s->axis == 1u ? (float3)(s->shear.y, 1.0f, s->shear.x)
-                                 : (float3)(s->shear.x, s->shear.y, 1.0f);
-  const float3 d = z / s->shear.z;
-  const float3 e1 = p1 - p0, e2 = p2 - p0, p = cross3(d, e2), o = s->o - p0;
-  const float det = dot3(e1, p);
-  if (det == 0.0f) return false;
-  const float inverse = 1.0f / det;
-  const float u = dot3(o, p) * inverse;
-  const float3 q = cross3(o, e1);
-  const float v = dot3(d, q) * inverse, t = dot3(e2, q) * inverse;
-  if (!(u >= 0.0f && v >= 0.0f && u + v <= 1.0f && t >= tmin && t <= tmax)) return false;
-  hit->t = t;
-  hit->v = u;
-  hit->w = v;
-  hit->det = 1.0f;
-  hit->is_front = det > 0.0f;
-  hit->is_counted = true;
-  return true;
-}
-
-#endif
-)";
-
-mistake of(const char* name, const char* about, std::vector<tracer::kernel_edit> edits) {
+mistake of(const char* name, const char* about, kernel_edits edits) {
   return {name, about, std::move(edits), ""};
 }
 
 }  // namespace
 
 mistake moller_trumbore() {
-  return of("moller-trumbore", "each triangle decides an edge by itself",
-            {{"triangle.h", "static inline bool hit_triangle(", "static inline bool unused("},
-             {"triangle.h", "  return true;\n}\n\n#endif\n",
-              std::string("  return true;\n}\n") + moller_trumbore_test}});
+  return of("moller-trumbore", "each triangle decides an edge by itself", moller_trumbore_test());
 }
 
 mistake determinant_epsilon() {
@@ -52,26 +23,18 @@ mistake determinant_epsilon() {
 
 mistake world_plane() {
   return of("world-plane", "t comes from a plane equation about the world's origin",
-            {{"triangle.h", "  float t = top / det;",
-              "  const float3 along = s->axis == 0u   ? (float3)(1.0f, s->shear.x, s->shear.y)\n"
-              "                       : s->axis == 1u ? (float3)(s->shear.y, 1.0f, s->shear.x)\n"
-              "                                       : (float3)(s->shear.x, s->shear.y, 1.0f);\n"
-              "  const float3 n = cross3(p1 - p0, p2 - p0);\n"
-              "  float t = (dot3(n, p0) - dot3(n, s->o)) / dot3(n, along / s->shear.z);"}});
+            joined({with_direction(),
+                    {{"triangle.h", "  float t = top / det * s->t_of_unit;",
+                      "  const float3 n = cross3(p1 - p0, p2 - p0);\n"
+                      "  float t = (dot3(n, p0) - dot3(n, s->o)) / dot3(n, s->direction);"}}}));
 }
 
 mistake contraction() {
-  return of(
-      "contraction", "edge functions are plain differences, and a*b+c may become an fma",
-      {{"vec.h", "#pragma OPENCL FP_CONTRACT OFF", "#pragma OPENCL FP_CONTRACT ON"},
-       {"triangle.h", "return fma(p.x, q.y, -b) + fma(-p.y, q.x, b);", "return p.x * q.y - b;"}});
+  return of("contraction", "edge functions are plain differences, and a*b+c may become an fma",
+            joined({contracted(), rounded_edges()}));
 }
 
-mistake unpadded() {
-  return of("unpadded", "slabs without a pad",
-            {{"box.h", "const float3 p = pad * fabs(s.inverse);",
-              "const float3 p = (float3)(0.0f * pad);"}});
-}
+mistake unpadded() { return of("unpadded", "slabs without a pad", unpadded_slabs()); }
 
 mistake far_padding() {
   return of("far-padding", "slabs padded at the far side alone",
@@ -86,8 +49,7 @@ mistake unchecked_direction() {
 
 mistake no_tie_break() {
   return of("no-tie-break", "of equal distances the first one met wins",
-            {{"traverse.h", "if (hit.t == q->t && (",
-              "if (hit.t == q->t && q->triangle != FACET_NONE && (true || "}});
+            {{"traverse.h", "!is_before(s, place, slot, q)", "true"}});
 }
 
 mistake truncated_nodes() {
@@ -117,10 +79,10 @@ mistake short_leaves() {
 }
 
 mistake open_points() {
-  return of("open-points", "a determinant of 0 is a hit at the corner's distance",
-            {{"triangle.h", "if (det == 0.0f) return false;", ""},
-             {"triangle.h",
-              "if (!(fabs(t) < INFINITY)) t =", "if (det == 0.0f) t = a.z;\n    else t ="}});
+  return of(
+      "open-points", "a determinant of 0 is a hit at the corner's distance",
+      {{"triangle.h", "if (det == 0.0f) return false;", ""},
+       {"triangle.h", "float t = top / det *", "float t = (det == 0.0f ? a.z : top / det) *"}});
 }
 
 mistake constant_offset() {
@@ -158,6 +120,20 @@ mistake wrapped_offsets() {
   return of("wrapped-offsets",
             "byte offsets of corners wrap: at 2^19, where small meshes show it, in place of 2^31",
             {{"geometry.h", "return g[index].xyz;", "return g[index & 0x7fffu].xyz;"}});
+}
+
+mistake exclusive_edges() {
+  return of(
+      "exclusive-edges", "a ray through an edge meets neither of its triangles",
+      {{"triangle.h",
+        "if ((u < 0.0f || v < 0.0f || w < 0.0f) && (u > 0.0f || v > 0.0f || w > 0.0f))",
+        "if ((u <= 0.0f || v <= 0.0f || w <= 0.0f) && (u >= 0.0f || v >= 0.0f || w >= 0.0f))"}});
+}
+
+mistake short_stack() {
+  return of(
+      "short-stack", "what does not fit on a stack of 4 is left out",
+      {{"traverse.h", "if (b != FACET_ABSENT) stack", "if (b != FACET_ABSENT && top < 4) stack"}});
 }
 
 mistake inclusive_edges() {

@@ -25,6 +25,8 @@ mistake unchecked_refraction();  ///< the root of a negative number
 mistake reversed_media();        ///< entering counts as leaving
 mistake unchecked_normals();     ///< normals of length 0 are divided by their length
 mistake wrapped_offsets();       ///< byte offsets wrap
+mistake exclusive_edges();       ///< an edge belongs to neither of its triangles
+mistake short_stack();           ///< more than 4 nodes that wait are not kept
 mistake inclusive_edges();       ///< an edge is crossed in both of its triangles
 
 }  // namespace facet::study

@@ -38,7 +38,7 @@ std::vector<way> ways(const lab& l, bool with_brute_force) {
   add("levels, buffer, all features", tree_kind::levels, geometry_kind::buffer, 0, 0, true);
   // As triangle.h says, that is sure to change nothing where it is left out.
   add("levels, buffer, t always held", tree_kind::levels, geometry_kind::buffer, 0, 0, false);
-  all.back().options.edits.push_back({"triangle.h", "if (!is_sure) {", "{"});
+  all.back().options.edits.push_back({"triangle.h", "if (!is_sure && !hold", "if (!hold"});
   if (with_brute_force) {
     add("none, buffer, 64", tree_kind::none, geometry_kind::buffer, 0, 0, false);
     add("none, image, 32", tree_kind::none, geometry_kind::image, 32, 1, true);
