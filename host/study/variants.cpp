@@ -107,4 +107,9 @@ std::vector<variant> single_guards() {
           {"less the checks", "no ray is refused", unchecked()}};
 }
 
+std::vector<variant> other_arithmetic() {
+  return {{"contracted", "a*b+c may become an fma", {contract}, ""},
+          {"fast-math", "-cl-fast-relaxed-math", {contract}, " -cl-fast-relaxed-math"}};
+}
+
 }  // namespace facet::study
