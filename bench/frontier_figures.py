@@ -24,9 +24,9 @@ SHORT = {"moller-trumbore": "MT", "plain-edges": "plain"}
 
 # (name, title, speed, its unit, error, its unit, error with silhouettes or None, what that is)
 LAYERS = (
-    ("hits", "Hits", lambda v: v.rays if v.traces_itself else None, "speed of eye and bounce rays (Mrays/s)",
-     lambda v: v.errors_per_million, "wrong hits per million rays, but for ties and silhouettes",
-     lambda v: v.wrong_per_million,
+    ("hits", "Hits", lambda v: v.rays if v.traces_itself else None,
+     "speed of eye and bounce rays (Mrays/s)", lambda v: v.errors_per_million,
+     "wrong hits per million rays, but for ties and silhouettes", lambda v: v.wrong_per_million,
      "with ties and silhouettes"),
     ("linear", "Linear picture", lambda v: v.pixels, "speed of pictures (Mpixels/s)",
      lambda v: v.rmse_rest, "RMSE without silhouettes (linear, 0 to 1)", lambda v: v.rmse,

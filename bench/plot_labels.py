@@ -3,7 +3,6 @@
 import math
 
 import plot_style as style
-from matplotlib.patheffects import withStroke
 
 # Where a name may stand, seen from its point: directions in degrees, distances in points. The first
 # that is free is taken.
@@ -72,6 +71,6 @@ def _write(axes, name, point, box, has_leader, size, is_bold):
     centre = ((box[0] + box[2]) / 2, (box[1] + box[3]) / 2)
     axes.annotate(name, to_data(point), xytext=to_data(centre), ha="center", va="center",
                   fontsize=size, fontweight="bold" if is_bold else "normal", zorder=5,
-                  path_effects=[withStroke(linewidth=2, foreground="white")],
+                  bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.7, "pad": 0.6},
                   arrowprops={"arrowstyle": "-", "color": style.GREY, "linewidth": 0.5,
                               "shrinkA": 0, "shrinkB": 3} if has_leader else None)

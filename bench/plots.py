@@ -4,8 +4,9 @@
     bench/plots.py RESULT.json... [--out FOLDER] [--name NAME]
 
 Results of `facet sweep` and of `facet accuracy --variants` alike. Several files of one scene, of one
-of the two, are drawn side by side in each plot. Needs Python 3.10 and matplotlib (Debian: python3-matplotlib). Exit codes are those of facet: 0 done, 2
-usage, 3 a file that cannot be plotted, 6 output.
+of the two, are drawn side by side in each plot. Needs Python 3.10 and matplotlib (Debian:
+python3-matplotlib). Exit codes are those of facet: 0 done, 2 usage, 3 a file that cannot be plotted, 6
+output.
 """
 
 import argparse

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "image/transfer.hpp"
 
@@ -96,10 +97,10 @@ TEST_CASE("equal pictures do not differ, and no pixel differs by less than 0 or 
   const image::flip_map none = image::flip(p.a, p.a);
   CHECK(none.mean == 0);
   CHECK(none.max == 0);
-  // Green and blue are the farthest apart of all colours, and black and white close to it.
-  for (const auto& [c, d] : {std::pair{1, 2}, std::pair{0, 1}}) {
-    const picture one = shown(8, 8, [&](int, int, int k) { return k == c ? 255 : 0; });
-    const picture two = shown(8, 8, [&](int, int, int k) { return k == d ? 255 : 0; });
+  // Green and blue are the farthest apart of all colours.
+  for (const std::pair<int, int>& of : {std::pair{1, 2}, std::pair{0, 1}}) {
+    const picture one = shown(8, 8, [&](int, int, int k) { return k == of.first ? 255 : 0; });
+    const picture two = shown(8, 8, [&](int, int, int k) { return k == of.second ? 255 : 0; });
     const image::flip_map m = image::flip(one, two);
     CHECK(*std::min_element(m.error.begin(), m.error.end()) >= 0);
     CHECK(m.max <= 1 + 1e-12);  // a quotient of two equal powers, rounded

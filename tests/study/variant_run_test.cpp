@@ -67,8 +67,7 @@ std::string fault_of(const study::variants_result& r) {
 }  // namespace
 
 TEST_CASE("each variant is timed as often as asked, and held against the double reference") {
-  const auto r =
-      measured(some(1, {"strict", "all-features", "plain-edges", "depth-0", "cutoff-1/16"}));
+  const auto r = measured(some(1, {"strict", "no-tree", "plain-edges", "depth-0", "cutoff-1/16"}));
   CHECK(r.complete);
   CHECK(r.has_findings());
   CHECK(r.broken_promises().empty());
@@ -158,14 +157,16 @@ TEST_CASE("what the device refuses says why; the others are measured") {
   list.insert(list.begin() + 1, list[0]);
   list[1].name = "broken";
   list[1].options.edits = {{"render.cl", "const uint n = view->samples;", "this is no C"}};
-  const auto r = measured(list);
+  auto r = measured(list);
   CHECK(r.complete);
   CHECK(r.variants[1].state == variant_state::refused);
   CHECK(!r.variants[1].reason.empty());
   CHECK(r.variants[1].picture.ms.empty());
   CHECK(r.variants[2].state == variant_state::measured);
   CHECK(r.order.size() == 2 * 3);
+  r.left_out.push_back({"no-tree", "too many triangles"});
   CHECK(fault_of(r) == "");
+  CHECK(nlohmann::json::parse(study::to_json(r))["left_out"][0]["variant"] == "no-tree");
 }
 
 TEST_CASE("interrupted, it keeps what it has and says that it is not complete") {
