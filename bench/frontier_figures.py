@@ -130,7 +130,7 @@ def _panel(axes, drawn, layer, scale):
                       color=colour, linestyle="none", elinewidth=0.8, capsize=1.5, zorder=3)
         axes.plot([s.value], [y], linestyle="none", marker="*" if is_strict else marker,
                   markersize=12 if is_strict else 6, color=colour, markeredgecolor="white",
-                  markeredgewidth=0.5, zorder=4)
+                  markeredgewidth=0.5, zorder=4.5 if is_strict else 4)
     _speed_axis(axes, speeds, speed_label)
     return [(short(v.name), s.value, scale.place(error_of(v)), v.name == "strict")
             for v, s in zip(drawn, speeds)], lines
