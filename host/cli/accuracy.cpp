@@ -1,4 +1,4 @@
-// facet accuracy: the hard cases, on a device.
+// facet accuracy: the hard cases, on a device; or speed against error, on a scene.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -8,6 +8,7 @@
 #include <sstream>
 #include <thread>
 
+#include "cli/accuracy_variants.hpp"
 #include "cli/command.hpp"
 #include "cli/console.hpp"
 #include "cli/device_choice.hpp"
@@ -23,6 +24,11 @@ namespace facet::cli {
 namespace {
 
 struct arguments {
+  CLI::App* app = nullptr;
+  std::string variants;  ///< a scene; "": the cases
+  std::vector<std::string> only;
+  size picture;
+  unsigned repeats = 10;
   std::string cases = "all", device, json;
   double rays = 10000;
   std::uint64_t seed = 1;
@@ -63,7 +69,31 @@ nlohmann::ordered_json content_of(const arguments& o, const runtime::device& d,
   return content;
 }
 
+void refuse_with(const CLI::App& app, const char* given, std::initializer_list<const char*> names) {
+  for (const char* name : names)
+    if (app.count(name) > 0)
+      throw usage_error(std::string(name) + " has no meaning " + given +
+                        "; leave one of the two out");
+}
+
+int run_variants(const arguments& o) {
+  refuse_with(*o.app, "with --variants", {"--cases", "--rays", "--mistakes"});
+  if (o.device == "serial" || o.device == "serial-double")
+    throw usage_error(
+        "--device " + o.device +
+        " has no meaning here: the variants are of an OpenCL device, held against the "
+        "double reference; `facet devices` lists what there is");
+  if (o.seed > 0xffffffffu)
+    throw usage_error("--seed: found " + std::to_string(o.seed) + "; with --variants at most " +
+                      std::to_string(0xffffffffu) + " is allowed");
+  variants_request r{o.variants, o.device, o.json, {}, o.picture, o.repeats, std::uint32_t(o.seed)};
+  if (o.app->count("--only")) r.only = o.only;
+  return run_accuracy_variants(r, o.say);
+}
+
 int run(const arguments& o) {
+  if (o.app->count("--variants")) return run_variants(o);
+  refuse_with(*o.app, "without --variants SCENE", {"--only", "--size", "--repeats"});
   const std::vector<study::hard_case> cases = chosen(o.cases);
   if (o.device == "serial" || o.device == "serial-double")
     throw usage_error("--device " + o.device +
@@ -113,7 +143,10 @@ int run(const arguments& o) {
 command add_accuracy(CLI::App& program) {
   auto o = std::make_shared<arguments>();
   CLI::App* app =
-      program.add_subcommand("accuracy", "Hard numerical cases, held against exact oracles");
+      program.add_subcommand("accuracy",
+                             "Hard numerical cases, held against exact oracles; or, with\n"
+                             "--variants, what faster variants cost in error");
+  o->app = app;
   app->add_option("--cases", o->cases, "all, or numbers like 2,3,26 (default all)")
       ->type_name("all|N,...");
   app->add_option("--rays", o->rays,
@@ -129,8 +162,23 @@ command add_accuracy(CLI::App& program) {
             return "found \"" + text + "\"; whole numbers from 1000 to 1e10 rays are allowed";
           },
           "", "rays"));
-  app->add_option("--seed", o->seed, "Of rays and scenes (default 1)")->type_name("N");
+  app->add_option("--seed", o->seed, "Of rays and scenes, and of the variants' order (default 1)")
+      ->type_name("N");
   add_device(*app, o->device, false);
+  app->add_option("--variants", o->variants,
+                  "In place of the cases: trace this scene (named as for `facet sweep`) in every\n"
+                  "variant there is, and hold each against the double reference")
+      ->type_name("SCENE");
+  app->add_option("--only", o->only, "Of the variants these alone, and strict: names by commas")
+      ->type_name("LIST")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  add_size(*app, "--size", o->picture, limits::image_side,
+           "Pixels of the variants' picture (default: 1280 wide on a GPU and 320 elsewhere,\n"
+           "divided by the side of the scene's grid of samples)");
+  app->add_option("--repeats,--repeat", o->repeats, "Timed runs of each variant (default 10)")
+      ->type_name("N")
+      ->check(whole_number(1, 100000, "times"));
   app->add_flag(
       "--mistakes", o->with_mistakes,
       "Run each case also with the mistake in the kernels that it is there to catch, and\n"

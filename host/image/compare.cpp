@@ -33,6 +33,10 @@ std::string size_of(const picture& p) {
 }  // namespace
 
 difference compare(const picture& a, const picture& b) {
+  return compare(a, b, std::vector<bool>(std::size_t(a.width) * a.height));
+}
+
+difference compare(const picture& a, const picture& b, const std::vector<bool>& left_out) {
   if (a.width != b.width || a.height != b.height)
     throw std::invalid_argument("the pictures differ in size: " + size_of(a) + " and " +
                                 size_of(b));
@@ -43,6 +47,10 @@ difference compare(const picture& a, const picture& b) {
     // Summed by row, so that a large picture's small errors are not lost in a large sum.
     double row_sum = 0, row_squares = 0;
     for (std::uint32_t x = 0; x < a.width; ++x) {
+      if (left_out[std::size_t(y) * a.width + x]) {
+        ++d.left_out;
+        continue;
+      }
       const float *p = a.at(x, y), *q = b.at(x, y);
       bool nan = false, off = false, off_displayed = false;
       for (int channel = 0; channel < 4; ++channel) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "scene/picture.hpp"
 
@@ -31,7 +32,8 @@ struct difference {
   /// The pixel of `max`, the first in reading order (0, 0 for equal pictures).
   std::uint32_t worst_x = 0, worst_y = 0;
 
-  std::uint64_t pixels() const { return std::uint64_t(width) * height; }
+  std::uint64_t left_out = 0;  ///< pixels that nothing above looks at
+  std::uint64_t pixels() const { return std::uint64_t(width) * height - left_out; }
   double share_off() const { return pixels() ? double(pixels_off) / double(pixels()) : 0; }
   double share_off_displayed() const {
     return pixels() ? double(pixels_off_displayed) / double(pixels()) : 0;
@@ -40,5 +42,7 @@ struct difference {
 
 /// Throws std::invalid_argument, naming both sizes, if they differ.
 difference compare(const picture& a, const picture& b);
+/// Without the pixels whose place in `left_out` (row by row from the top) is true.
+difference compare(const picture& a, const picture& b, const std::vector<bool>& left_out);
 
 }  // namespace facet::image

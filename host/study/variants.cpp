@@ -58,4 +58,9 @@ std::vector<variant> single_guards() {
           {"less the checks", "no ray is refused", unchecked()}};
 }
 
+std::vector<variant> other_arithmetic() {
+  return {{"contracted", "a*b+c may become an fma", contracted(), ""},
+          {"fast-math", "-cl-fast-relaxed-math", contracted(), " -cl-fast-relaxed-math"}};
+}
+
 }  // namespace facet::study

@@ -28,4 +28,8 @@ std::vector<variant> inexact_variants();
 /// The strict kernel without one of its guards at a time: what each costs.
 std::vector<variant> single_guards();
 
+/// The strict kernel in other arithmetic: with contraction, and with all that -cl-fast-relaxed-math
+/// allows.
+std::vector<variant> other_arithmetic();
+
 }  // namespace facet::study

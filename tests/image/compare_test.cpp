@@ -124,3 +124,18 @@ TEST_CASE("pictures of different sizes are refused with both sizes") {
 TEST_CASE("empty pictures compare as equal") {
   CHECK(image::compare(picture{}, picture{}).share_off() == 0);
 }
+
+TEST_CASE("pixels that are left out count for nothing, not even as equal ones") {
+  const picture a = grey(4, 2, 0.5f);
+  picture b = a;
+  b.at(1, 1)[0] = 1;
+  b.at(3, 0)[2] = 0.25f;
+  std::vector<bool> left_out(8);
+  left_out[5] = true;
+  const auto d = image::compare(a, b, left_out);
+  CHECK(d.left_out == 1);
+  CHECK(d.pixels() == 7);
+  CHECK(d.max == 0.25);
+  CHECK(d.mean == 0.25 / 21);
+  CHECK(d.pixels_off == 1);
+}

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <mutex>
 #include <numbers>
-#include <thread>
+
+#include "study/parallel.hpp"
 
 namespace facet::study {
 namespace {
@@ -80,22 +80,7 @@ void lab::note_figure(std::string what, double measured, std::string unit) {
 
 void in_parallel(const lab& l, std::uint64_t count,
                  const std::function<void(std::uint64_t, std::uint64_t)>& body) {
-  const std::uint64_t parts = std::min<std::uint64_t>(std::max(1u, l.threads), (count + 63) / 64);
-  if (parts <= 1) return body(0, count);
-  std::exception_ptr failure;
-  std::mutex mutex;
-  std::vector<std::thread> threads;
-  for (std::uint64_t p = 0; p < parts; ++p)
-    threads.emplace_back([&, p] {
-      try {
-        body(count * p / parts, count * (p + 1) / parts);
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        failure = std::current_exception();
-      }
-    });
-  for (std::thread& t : threads) t.join();
-  if (failure) std::rethrow_exception(failure);
+  in_parallel(l.threads, count, body);
 }
 
 void in_batches(const lab& l, std::uint64_t count,
