@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "study/json_text.hpp"
+#include "study/result_json.hpp"
 
 namespace facet::study {
 namespace {
@@ -33,20 +34,6 @@ const char* word_of(tracer::geometry_kind g) {
       break;
   }
   return "auto";
-}
-
-json to_json(const interval& i) { return json::array({i.low, i.high}); }
-
-json to_json(const times& t) {
-  if (t.ms.empty()) return {{"samples_ms", json::array()}, {"summary", nullptr}};
-  return {{"samples_ms", t.ms},
-          {"summary",
-           {{"median_ms", t.values.median},
-            {"interval_ms", to_json(t.range)},
-            {"mean_ms", t.values.mean},
-            {"deviation_ms", t.values.deviation},
-            {"least_ms", t.values.least},
-            {"most_ms", t.values.most}}}};
 }
 
 json to_json(const speed_up& s) {
@@ -108,17 +95,6 @@ json to_json(const experiment_result& e) {
           {"best", names(e.best)},
           {"shapes", std::move(shapes)},
           {"order", names(e.order)}};
-}
-
-json to_json(const device_facts& d) {
-  return {{"name", d.name},
-          {"platform", d.platform},
-          {"driver", d.driver},
-          {"opencl", d.opencl},
-          {"type", d.type},
-          {"compute_units", d.compute_units},
-          {"max_clock_mhz", d.max_clock_mhz},
-          {"timer_ns", d.timer_ns}};
 }
 
 json to_json(const sweep_settings& s) {

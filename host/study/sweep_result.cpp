@@ -5,11 +5,6 @@
 namespace facet::study {
 namespace {
 
-void conclude(times& t, const resampling& r) {
-  t.values = summarize(t.ms);
-  t.range = median_interval(t.ms, r);
-}
-
 speed_up ratio(const times& serial, const times& device, const resampling& r) {
   if (serial.ms.empty() || device.ms.empty() || !(device.values.least > 0)) return {};
   return {serial.values.median / device.values.median, ratio_interval(serial.ms, device.ms, r)};

@@ -7,7 +7,7 @@
 
 #include "study/provenance.hpp"
 #include "study/shape.hpp"
-#include "study/statistics.hpp"
+#include "study/times.hpp"
 #include "tracer/tracer.hpp"
 
 namespace facet::study {
@@ -21,13 +21,6 @@ struct sweep_settings {
   double level = 0.95;             ///< of the intervals
   /// Tree and work-group are overridden; a tile of 0 x 0 pixels is the whole picture, not 50 ms.
   tracer::options tracer;
-};
-
-/// Repeated times of one kind, in milliseconds and in the order in which they were taken.
-struct times {
-  std::vector<double> ms;
-  summary values;
-  interval range;  ///< of the median
 };
 
 /// How often faster than the serial reference: median over median. 0 without either.
