@@ -159,8 +159,8 @@ class size_run {
     for (entry& e : entries_) {
       if (e.into.ended) continue;
       e.on->describe(e.point);
-      conclude(e.point.build, settings_.drawing);
-      for (growth_figure& f : e.point.figures) conclude(f.time, settings_.drawing);
+      e.point.build.conclude(settings_.drawing);
+      for (growth_figure& f : e.point.figures) f.time.conclude(settings_.drawing);
       e.into.points.push_back(std::move(e.point));
     }
   }
@@ -289,9 +289,7 @@ std::uint64_t growth_result::differing_hits() const {
 growth_result measure_growth(const runtime::queue& queue, const growth_settings& s,
                              const growth_watch& watch) {
   growth_result r;
-  r.device = study::facts_of(queue.get_device());
-  r.cpu = study::cpu_name();
-  r.date = study::date();
+  r.from = origin_now(queue.get_device());
   r.kernel_hash = study::fingerprint_of(runtime::expand(tracer::kernel_sources(), "trace.cl"));
   r.settings = s;
   const std::vector<ray> eye = primary_rays(s.width, s.height);

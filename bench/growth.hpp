@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "bench/result_file.hpp"
 #include "runtime/queue.hpp"
-#include "study/provenance.hpp"
 #include "study/times.hpp"
 #include "tracer/tracer.hpp"
 
@@ -74,8 +74,8 @@ struct growth_family {
 
 struct growth_result {
   bool complete = false;
-  study::device_facts device;
-  std::string cpu, date, kernel_hash;  ///< kernel_hash: of trace.cl's expanded text
+  origin from;
+  std::string kernel_hash;  ///< of trace.cl's expanded text
   growth_settings settings;
   std::vector<growth_family> families;
 
@@ -91,7 +91,7 @@ using growth_watch = std::function<void(const growth_result&)>;
 growth_result measure_growth(const runtime::queue& queue, const growth_settings& s,
                              const growth_watch& watch);
 
-/// The file of results (facet-growth.schema.json).
-std::string to_json(const growth_result& r);
+/// As facet-growth.schema.json has it.
+nlohmann::ordered_json to_json(const growth_result& r);
 
 }  // namespace facet::bench

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "bench/growth.hpp"
@@ -84,9 +85,9 @@ void run(const arguments& o) {
       print(series, s.triangles[size]);
     std::fflush(stdout);
     size = (size + 1) % s.triangles.size();
-    if (!o.json.empty()) image::write_file(o.json, to_json(so_far));
+    if (!o.json.empty()) write_result(o.json, to_json(so_far));
   });
-  if (!o.json.empty()) image::write_file(o.json, to_json(r));
+  if (!o.json.empty()) write_result(o.json, to_json(r));
   if (const std::uint64_t differ = r.differing_hits())
     throw std::runtime_error(std::to_string(differ) +
                              " hits without the tree, or of the serial reference, differ from "

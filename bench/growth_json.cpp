@@ -1,7 +1,6 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/growth.hpp"
-#include "study/json_text.hpp"
 #include "study/result_json.hpp"
 
 namespace facet::bench {
@@ -55,21 +54,19 @@ json to_json(const growth_settings& s) {
 
 }  // namespace
 
-std::string to_json(const growth_result& r) {
+json to_json(const growth_result& r) {
   json families = json::array();
   for (const growth_family& f : r.families) {
     json series = json::array();
     for (const growth_series& s : f.series) series.push_back(to_json(s));
     families.push_back({{"family", f.name}, {"series", std::move(series)}});
   }
-  json j = study::result_head("facet-growth", 1, r.date);
+  json j = head_of("facet-growth", r.from);
   j["complete"] = r.complete;
-  j["device"] = study::to_json(r.device);
-  j["cpu"] = r.cpu;
   j["settings"] = to_json(r.settings);
   j["kernel"] = {{"text_hash", r.kernel_hash}};
   j["families"] = std::move(families);
-  return study::json_text(j);
+  return j;
 }
 
 }  // namespace facet::bench

@@ -31,11 +31,4 @@ json to_json(const device_facts& d) {
           {"timer_ns", d.timer_ns}};
 }
 
-json result_head(const std::string& format, int version, const std::string& date) {
-  return {{"format", format},
-          {"version", version},
-          {"date", date},
-          {"facet", {{"version", study::version()}, {"commit", commit()}}}};
-}
-
 }  // namespace facet::study

@@ -1,20 +1,17 @@
-// What files of results have in common: where they come from, and repeated times.
+// What the files of all studies write alike.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
-#include <string>
 
 #include "study/provenance.hpp"
 #include "study/times.hpp"
 
 namespace facet::study {
 
-/// The samples and, if there are any, their summary.
-nlohmann::ordered_json to_json(const times& t);
+/// [low, high]
 nlohmann::ordered_json to_json(const interval& i);
+/// Every sample, and their summary: null without samples.
+nlohmann::ordered_json to_json(const times& t);
 nlohmann::ordered_json to_json(const device_facts& d);
-
-/// What a file begins with: format, version, `date`, Facet's own version and commit.
-nlohmann::ordered_json result_head(const std::string& format, int version, const std::string& date);
 
 }  // namespace facet::study

@@ -28,13 +28,13 @@ std::vector<std::string> sweep_result::differences() const {
 
 void conclude(experiment_result& e, const sweep_settings& settings) {
   const resampling r{settings.resamples, settings.level, settings.seed};
-  conclude(e.serial.wall, r);
+  e.serial.wall.conclude(r);
   std::vector<std::uint32_t> measured;
   std::vector<estimate> estimates;
   for (std::uint32_t i = 0; i < e.shapes.size(); ++i) {
     shape_result& s = e.shapes[i];
-    conclude(s.kernel, r);
-    conclude(s.wall, r);
+    s.kernel.conclude(r);
+    s.wall.conclude(r);
     if (s.state == standing::different) continue;
     s.by_kernel = ratio(e.serial.wall, s.kernel, r);
     s.by_wall = ratio(e.serial.wall, s.wall, r);

@@ -7,6 +7,7 @@
 
 #include "study/provenance.hpp"
 #include "study/shape.hpp"
+#include "study/statistics.hpp"
 #include "study/times.hpp"
 #include "tracer/tracer.hpp"
 

@@ -1,4 +1,4 @@
-// Repeated times of one kind, and what is said of them.
+// Repeated times of one kind.
 #pragma once
 
 #include <vector>
@@ -12,9 +12,12 @@ struct times {
   std::vector<double> ms;
   summary values;
   interval range;  ///< of the median
-};
 
-/// Fills in what follows from the samples.
-void conclude(times& t, const resampling& r);
+  /// Fills what follows from the samples.
+  void conclude(const resampling& r) {
+    values = summarize(ms);
+    range = median_interval(ms, r);
+  }
+};
 
 }  // namespace facet::study
