@@ -85,11 +85,13 @@ def _scales(axes):
 
 
 def _foot(result, series):
-    """The caption, and why series end before others."""
+    """The caption, why series end before others, and what makes them doubtful."""
     lines = [result.caption()]
     for s in series:
         if s.ended:
-            lines += textwrap.wrap(f"{s.title}: ended, {s.ended}", 96)[:2]
+            lines += textwrap.wrap(f"{s.title}: {s.ended}", 92)
+        if s.differing_hits():
+            lines.append(f"{s.title}: {s.differing_hits():,} HITS DIFFER from those with the tree")
     return "\n".join(lines)
 
 
@@ -107,18 +109,19 @@ def growth(results, family):
             panel(axes, series)
             _scales(axes)
             if axes.get_legend_handles_labels()[0]:
-                axes.legend(loc="upper left")
+                axes.legend(loc="best")
             if column > 0:
                 axes.set_ylabel("")
         if len(results) > 1:
-            grid[0][column].set_title(f"{result.device}, {result.date}")
+            grid[0][column].set_title(style.plain(f"{result.device}, {result.date}"))
         grid[-1][column].set_xlabel("triangles")
-        grid[-1][column].annotate(_foot(result, series), (0, 0), xycoords="axes fraction",
+        grid[-1][column].annotate(style.plain(_foot(result, series)), (0, 0), xycoords="axes fraction",
                                   xytext=(-40, -34), textcoords="offset points", va="top",
                                   fontsize=7, color=style.GREY)
+    figure.align_ylabels(grid[:, 0])
     width, height = results[0].picture
-    figure.suptitle(f"Growth with triangles: {family}, {width}{TIMES}{height} eye rays, and the "
-                    "shadow and bounce rays of their hits", y=0.92)
+    figure.suptitle(style.plain(f"Growth with triangles: {family}\n{width}{TIMES}{height} eye rays, "
+                                "and the shadow and bounce rays of their hits"), y=0.945)
     return figure
 
 

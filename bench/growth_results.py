@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from results_file import Node, ResultError, read_file
+from results_file import Node, ResultError, read_file, short_commit
 from sweep_results import Estimate
 
 FORMAT, VERSION = "facet-growth", 1
@@ -26,11 +26,14 @@ class Point:
 class Series:
     way: str
     points: list
-    ended: str  # why it holds no larger mesh; empty if it holds all that were asked for
+    ended: str  # where and why it ends; empty if it holds all that were asked for
 
     @property
     def title(self):
         return TITLES.get(self.way, self.way)
+
+    def differing_hits(self):
+        return sum(p.differing_hits for p in self.points)
 
 
 @dataclass
@@ -51,10 +54,11 @@ class Result:
 
     def caption(self):
         """Where and when: for the foot of each figure."""
-        return (f"{self.device}, driver {self.driver}; serial: {self.cpu}\n{self.date}, Facet "
-                f"{self.commit[:12]}; medians of {self.repeats} passes and {self.builds} builds, "
-                f"{100 * self.level:g}% bootstrap intervals"
-                + ("" if self.complete else "; interrupted, not complete"))
+        return (f"{self.device}, driver {self.driver}; serial: {self.cpu}, one thread\n{self.date}, "
+                f"Facet {short_commit(self.commit)}"
+                + ("" if self.complete else "; interrupted, not complete")
+                + f"\nmedians of {self.repeats} passes and of {self.builds} builds, and their "
+                f"{100 * self.level:g}% bootstrap intervals")
 
 
 def _median(times):
@@ -89,7 +93,8 @@ def _point(node):
 def _series(node):
     ended = node.find("ended")
     return Series(node["way"].get(str), [_point(p) for p in node["points"].items()],
-                  ended["reason"].get(str) if ended else "")
+                  f"ends before {ended['triangles'].get(int):,} triangles: {ended['reason'].get(str)}"
+                  if ended else "")
 
 
 def read_growth(path):
