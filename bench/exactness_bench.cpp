@@ -64,9 +64,9 @@ void measure(const std::string& mesh, const rays_of& r, std::vector<entry>& all,
                        {"rays", r.kind},
                        {"count", r.rays.size()},
                        {"variant", e.what.name},
-                       {"lacks", e.is_inexact    ? "all guards"
-                                 : &e == &all[0] ? "none"
-                                                 : "one guard"},
+                       {"kind", e.is_inexact    ? "inexact"
+                                : &e == &all[0] ? "strict"
+                                                : "one guard"},
                        {"mrays_per_s", s.median},
                        {"mrays_per_s_all", e.rates},
                        {"over_fastest_inexact", s.median / fastest},

@@ -19,7 +19,7 @@ class Point:
     build_ms: Estimate
     device_bytes: int
     ray_ns: dict  # "eye", "shadow", "bounce" -> Estimate of nanoseconds a ray
-    differing_hits: int
+    differing_hits: int | None  # none if it was not compared
 
 
 @dataclass
@@ -33,7 +33,7 @@ class Series:
         return TITLES.get(self.way, self.way)
 
     def differing_hits(self):
-        return sum(p.differing_hits for p in self.points)
+        return sum(p.differing_hits or 0 for p in self.points)
 
 
 @dataclass
@@ -80,6 +80,7 @@ def _point(node):
     triangles = node["triangles"].get(int)
     if triangles < 1:
         node["triangles"].fail(f"found {triangles}; allowed: at least 1")
+    compared = [d.get(int) for f in figures if (d := f.find("differing_hits"))]
     return Point(
         mesh=node["mesh"].get(str),
         triangles=triangles,
@@ -87,7 +88,7 @@ def _point(node):
         build_ms=_median(node["build"]),
         device_bytes=node["device_bytes"].get(int),
         ray_ns={f["rays"].get(str): _nanoseconds(f) for f in figures},
-        differing_hits=sum(d.get(int) for f in figures if (d := f.find("differing_hits"))))
+        differing_hits=sum(compared) if compared else None)
 
 
 def _series(node):

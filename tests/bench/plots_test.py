@@ -10,7 +10,7 @@ import unittest
 sys.dont_write_bytecode = True
 from plots_helper import PlotsTest, estimate  # noqa: E402
 
-PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else None
+PROGRAM = sys.argv[1] if len(sys.argv) > 1 else None
 
 
 def shape(name, ms):
@@ -152,4 +152,4 @@ class Plots(PlotsTest):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    unittest.main(argv=sys.argv[:1])
