@@ -115,9 +115,9 @@ def growth(results, family):
         if len(results) > 1:
             grid[0][column].set_title(style.plain(f"{result.device}, {result.date}"))
         grid[-1][column].set_xlabel("triangles")
-        grid[-1][column].annotate(style.plain(_foot(result, series)), (0, 0), xycoords="axes fraction",
-                                  xytext=(-40, -34), textcoords="offset points", va="top",
-                                  fontsize=7, color=style.GREY)
+        grid[-1][column].annotate(
+            style.plain(_foot(result, series)), (0, 0), xycoords="axes fraction", xytext=(-40, -34),
+            textcoords="offset points", va="top", fontsize=7, color=style.GREY)
     figure.align_ylabels(grid[:, 0])
     width, height = results[0].picture
     figure.suptitle(style.plain(f"Growth with triangles: {family}\n{width}{TIMES}{height} eye rays, "

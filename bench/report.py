@@ -67,7 +67,7 @@ def main(arguments):
     parser.add_argument("--out", required=True, metavar="REPORT.html", help="where the report goes")
     options = parser.parse_args(arguments)
     for path in options.results + options.pictures:
-        if os.path.exists(path) and os.path.exists(options.out) and os.path.samefile(path, options.out):
+        if os.path.realpath(path) == os.path.realpath(options.out):
             parser.error(f"--out {options.out} is {path}, which would be lost; name another file")
     try:
         content = report(options.results, options.pictures, options.title)

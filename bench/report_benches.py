@@ -64,8 +64,8 @@ def exactness(root, _):
                   "makes hits exact, and for how many rays that one finds another hit",
                   ("mesh", "rays", "#strict, Mrays/s", "#fastest, Mrays/s", "the fastest", "#loss, %",
                    "#its other hits", "#of rays"), costs),
-            table("Each variant: median (least\N{EN DASH}most), how much faster than the strict kernel, "
-                  "and hits that are not the strict kernel's; \"one guard\" changes one of those "
+            table("Each variant: median (least\N{EN DASH}most), how much faster than the strict kernel "
+                  "it is, and hits that are not the strict kernel's; \"one guard\" changes one of those "
                   "things alone", ("mesh", "rays", "variant", "kind", "#Mrays/s", "#faster, %",
                                    "#other hits"), rows)]
 

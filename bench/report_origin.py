@@ -5,7 +5,7 @@ from results_file import short_commit
 
 UNKNOWN = "not recorded"
 
-COLUMNS = ("file", "format", "device", "platform, driver", "CPU", "measured", "Facet", "options")
+COLUMNS = ("file", "format", "device", "platform, driver", "CPU", "measured", "Facet", "~options")
 
 
 def _words(value):

@@ -17,7 +17,8 @@ STYLE = """
   --line: #484848; --band: #212427; --link: #7cc0ff; } }
 body { margin: 0 auto; padding: 1rem 1.5rem 3rem; max-width: 70rem; color: var(--ink);
   background: var(--paper); font: 1rem/1.5 system-ui, sans-serif; }
-h1 { font-size: 1.8rem; } h2 { font-size: 1.4rem; margin-top: 2.5rem; border-bottom: 2px solid var(--line); }
+h1 { font-size: 1.8rem; }
+h2 { font-size: 1.4rem; margin-top: 2.5rem; border-bottom: 2px solid var(--line); }
 h3 { font-size: 1.1rem; margin-top: 2rem; }
 a { color: var(--link); }
 p.note, figcaption { color: var(--faint); font-size: 0.9rem; }
@@ -30,12 +31,14 @@ thead th { border-bottom: 2px solid var(--line); vertical-align: bottom; }
 tbody th { font-weight: 600; }
 tbody tr:nth-child(even) { background: var(--band); }
 td.number, th.number { text-align: right; }
+th.prose { min-width: 13rem; }
 .plots { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(28rem, 100%), 1fr));
   gap: 1rem; align-items: start; }
 figure { margin: 1.2rem 0; }
 figure img { display: block; max-width: 100%; height: auto; background: #ffffff; }
 @media print {
-  :root { --ink: #000000; --paper: #ffffff; --faint: #404040; --line: #909090; --band: #ffffff; --link: #000000; }
+  :root { --ink: #000000; --paper: #ffffff; --faint: #404040; --line: #909090; --band: #ffffff;
+    --link: #000000; }
   body { max-width: none; padding: 0; font-size: 9.5pt; }
   nav { display: none; } .wide { overflow: visible; } table { font-size: 7.5pt; }
   thead { display: table-header-group; } tr, figure { break-inside: avoid; }
@@ -82,11 +85,14 @@ def note(words):
     return f"<p class=\"note\">{text(words)}</p>"
 
 
+KINDS_OF_COLUMNS = {"#": " class=\"number\"", "~": " class=\"prose\""}
+
+
 def table(caption, columns, rows):
-    """Columns whose names begin with # hold numbers, to the right; the first cell of a row is its
-    head."""
-    kinds = [" class=\"number\"" if c.startswith("#") else "" for c in columns]
-    head = "".join(f"<th scope=\"col\"{kind}>{text(c.lstrip('#'))}</th>"
+    """Columns whose names begin with # hold numbers, to the right, and those with ~ prose; the first
+    cell of a row is its head."""
+    kinds = [KINDS_OF_COLUMNS.get(c[0], "") for c in columns]
+    head = "".join(f"<th scope=\"col\"{kind}>{text(c.lstrip('#~'))}</th>"
                    for c, kind in zip(columns, kinds))
     body = []
     for row in rows:

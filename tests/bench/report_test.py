@@ -54,6 +54,26 @@ def exactness():
         for name, (kind, rate, other) in rates.items()])
 
 
+def variants():
+    times = {"samples_ms": [2], "summary": {"median_ms": 2, "interval_ms": [1.9, 2.1]}}
+    rmse = {"rmse": 0.0125}
+    measured = {
+        "name": "bare", "family": "arithmetic", "about": "nothing padded", "state": "measured",
+        "hits_of": "bare", "hits": [
+            {"rays": rays, "count": 1000, "kernel": times, "mrays_per_s": 0.5, "errors": {
+                "wrong": 9, "errors": 3, "wrong_per_million": 9000, "errors_per_million": 3000}}
+            for rays in ("eye", "bounce")],
+        "picture": {"kernel": times, "mrays_per_s": 0.7, "mpixels_per_s": 0.25, "errors": {
+            "linear": {"all": rmse, "without_silhouettes": {"rmse": 0}},
+            "displayed": {"off": 17, "flip_mean": 0.003}}}}
+    refused = {"name": "images", "family": "exact", "about": "in images", "state": "refused",
+               "hits_of": "images", "reason": "has no images"}
+    return origin("facet-variants", complete=True, variants=[measured, refused],
+                  settings={"repeats": 2, "bootstrap": {"level": 0.95}},
+                  scene={"name": "made up", "hash": "fnv1a64:00", "triangles": 1234},
+                  picture={"width": 64, "height": 32, "max_depth": 2, "samples": 1})
+
+
 class Page(html.parser.HTMLParser):
     """What a browser would see: elements, their text, and whether they close as they opened."""
 
@@ -120,12 +140,12 @@ class Report(FilesTest):
         self.assertIn(b"time to build (ms)", pictures[1])
 
     def test_it_is_whole_and_can_be_read_without_seeing(self):
-        page = self.make(self.put("g.json", growth_plots_test.result("terrain", "soup")),
-                         self.put("a.json", accuracy()), self.put("e.json", exactness()))
+        page = self.make(self.put("e.json", exactness()), self.put("a.json", accuracy()),
+                         self.put("g.json", growth_plots_test.result()))
         self.assertEqual(page.faults, [])
         self.assertEqual(page.all("html"), [{"lang": "en"}])
         self.assertTrue(all(len(i["alt"]) > 10 for i in page.all("img")))
-        self.assertEqual(len(page.all("img")), 2)
+        self.assertEqual(len(page.all("img")), 1)
         self.assertEqual(len(page.all("caption")), len(page.all("table")))
         self.assertTrue(all(h.get("scope") in ("col", "row") for h in page.all("th")))
         names = [a["id"] for _, a in page.elements if "id" in a]
@@ -144,6 +164,13 @@ class Report(FilesTest):
                      "soup:10000 10,000 3,000 (2,700\N{EN DASH}3,600)",
                      "without a tree: ends before 1,000 triangles: it would take about 99 s."):
             self.assertIn(part, re.sub(r"\s+", " ", text))
+
+    def test_variants_have_their_speed_and_errors_or_why_they_have_none(self):
+        text = re.sub(r"\s+", " ", self.make(self.put("v.json", variants())).text())
+        for part in ("made up, 1,234 triangles: hits",
+                     "bare measured 0.5 9,000 3,000 0.5 9,000 3,000", "images refused",
+                     "bare 0.25 0.0125 0 17 0.003 nothing padded", "in images; refused: has no images"):
+            self.assertIn(part, text)
 
     def test_what_comes_from_a_file_is_text(self):
         evil = exactness()
