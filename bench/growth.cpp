@@ -7,17 +7,14 @@
 #include <memory>
 #include <new>
 
-#include "bench/measure.hpp"
+#include "bench/growth_ways.hpp"
 #include "bench/workload.hpp"
-#include "reference/tracer.hpp"
 #include "scene/error.hpp"
 #include "study/fingerprint.hpp"
 #include "tracer/kernels.hpp"
 
 namespace facet::bench {
 namespace {
-
-using hits_of = std::vector<tracer::hit>;
 
 /// The mesh of a family whose number of triangles is nearest.
 std::string mesh_name(const std::string& family, std::uint64_t triangles) {
@@ -43,82 +40,6 @@ std::uint64_t count_differing(const hits_of& a, const hits_of& b) {
               bits(a[i].v) != bits(b[i].v) || a[i].triangle != b[i].triangle;
   return differ;
 }
-
-/// A way that is being measured on one mesh.
-class contender {
- public:
-  virtual ~contender() = default;
-  /// Milliseconds of one pass, and its hits.
-  virtual double trace(const std::vector<ray>& rays, bool any, hits_of& hits) = 0;
-  /// What is known of the mesh's place and tree.
-  virtual void describe(growth_point& p) = 0;
-};
-
-class device_contender : public contender {
- public:
-  /// Builds once to warm up, then `builds` times.
-  device_contender(const runtime::queue& queue, const scene& s, way by, unsigned builds,
-                   const std::string& geometry) {
-    tracer::options o;
-    o.tree = by == way::tree ? tracer::tree_kind::levels : tracer::tree_kind::none;
-    o.geometry = geometry == "image"    ? tracer::geometry_kind::image
-                 : geometry == "buffer" ? tracer::geometry_kind::buffer
-                                        : tracer::geometry_kind::automatic;
-    for (unsigned k = 0; k <= builds; ++k) {
-      scene_.reset();  // two at once need not fit
-      scene_.emplace(queue, s, o);
-      tracer::statistics stats;
-      scene_->trace({}, false, 1, &stats);
-      if (k > 0) build_.ms.push_back(stats.build_ms);
-    }
-  }
-
-  double trace(const std::vector<ray>& rays, bool any, hits_of& hits) override {
-    hits = scene_->trace(packed(rays), any, 1, &stats_);
-    return stats_.kernel_ms.at(0);
-  }
-
-  void describe(growth_point& p) override {
-    p.build = build_;
-    p.upload_ms = stats_.upload_ms;
-    p.compile_ms = stats_.compile_ms;
-    p.tree_depth = stats_.tree_depth;
-    p.device_bytes = stats_.device_bytes;
-    p.geometry = stats_.geometry;
-  }
-
- private:
-  std::optional<tracer::device_scene> scene_;
-  study::times build_;
-  tracer::statistics stats_;
-};
-
-class serial_contender : public contender {
- public:
-  explicit serial_contender(const scene& s) {
-    build_.ms.push_back(1e3 * seconds([&] { tracer_.emplace(s); }));
-  }
-
-  double trace(const std::vector<ray>& rays, bool any, hits_of& hits) override {
-    std::vector<hit> found(rays.size());
-    const double s = seconds([&] {
-      for (std::size_t i = 0; i < rays.size(); ++i)
-        if (any)
-          found[i].triangle = tracer_->occluded(rays[i]) ? 0 : tracer::miss;
-        else
-          found[i] = tracer_->closest(rays[i]);
-    });
-    hits.clear();
-    for (const hit& h : found) hits.push_back({h.t, h.u, h.v, h.instance, h.triangle});
-    return 1e3 * s;
-  }
-
-  void describe(growth_point& p) override { p.build = build_; }
-
- private:
-  std::optional<reference::tracer<float>> tracer_;
-  study::times build_;
-};
 
 /// A way on this mesh, and what is found of it.
 struct entry {
@@ -213,11 +134,7 @@ class size_run {
     e.point.mesh = name;
     e.point.scene_hash = hash_;
     e.point.triangles = scene_.triangle_count();
-    if (s.by == way::serial)
-      e.on = std::make_unique<serial_contender>(scene_);
-    else
-      e.on = std::make_unique<device_contender>(queue_, scene_, s.by, settings_.builds,
-                                                settings_.geometry);
+    e.on = make_contender(queue_, scene_, s.by, settings_);
     if (has_budget && s.points.empty()) {
       constexpr std::size_t step = 32;
       hits_of ignored;
