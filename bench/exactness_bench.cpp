@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/measure.hpp"
+#include "bench/result_file.hpp"
 #include "bench/rows.hpp"
 #include "bench/workload.hpp"
 #include "runtime/runtime.hpp"
@@ -12,6 +13,8 @@
 
 namespace facet::bench {
 namespace {
+
+using json = nlohmann::ordered_json;
 
 struct settings {
   std::vector<std::string> meshes{"terrain:1000", "soup:1000000"};
@@ -35,7 +38,7 @@ struct rays_of {
 
 /// Alternates all variants, the strict one first; a line and a JSON object for each.
 void measure(const std::string& mesh, const rays_of& r, std::vector<entry>& all, int repeat,
-             nlohmann::json& results) {
+             json& results) {
   std::vector<tracer::hit> strict;
   for (entry& e : all) e.rates.clear();
   for (int k = 0; k < repeat; ++k)
@@ -61,6 +64,9 @@ void measure(const std::string& mesh, const rays_of& r, std::vector<entry>& all,
                        {"rays", r.kind},
                        {"count", r.rays.size()},
                        {"variant", e.what.name},
+                       {"kind", e.is_inexact    ? "inexact"
+                                : &e == &all[0] ? "strict"
+                                                : "one guard"},
                        {"mrays_per_s", s.median},
                        {"mrays_per_s_all", e.rates},
                        {"over_fastest_inexact", s.median / fastest},
@@ -72,13 +78,9 @@ void measure(const std::string& mesh, const rays_of& r, std::vector<entry>& all,
 void run(const settings& o) {
   const runtime::device device = runtime::select_device(o.device);
   runtime::queue queue(device);
-  nlohmann::json report{{"row", "exactness"},
-                        {"device", device.name()},
-                        {"platform", device.platform_name()},
-                        {"driver", device.driver_version()},
-                        {"repeat", o.repeat},
-                        {"flags", o.flags},
-                        {"results", nlohmann::json::array()}};
+  json report = head_of("facet-bench-exactness", origin_now(device));
+  report["settings"] = {{"repeats", o.repeat}, {"flags", o.flags}};
+  report["results"] = json::array();
   std::printf(
       "Mrays/s: median (least-most); over the fastest inexact variant; hits other than strict\n");
   const std::vector<ray> primary = primary_rays();
@@ -102,7 +104,7 @@ void run(const settings& o) {
           rays_of{"bounce", packed(bounce_rays(s.meshes[0], primary, met)), false}})
       measure(name, r, all, o.repeat, report["results"]);
   }
-  if (!o.json.empty()) write_text(o.json, report.dump(2));
+  if (!o.json.empty()) write_result(o.json, report);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@ int main(int argc, char** argv) {
   facet::bench::add_trace_row(app);
   facet::bench::add_pictures_row(app);
   facet::bench::add_exactness_row(app);
+  facet::bench::add_growth_row(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -5,17 +5,19 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/measure.hpp"
+#include "bench/result_file.hpp"
 #include "bench/rows.hpp"
 #include "reference/tracer.hpp"
 #include "runtime/runtime.hpp"
 #include "scene/load.hpp"
 #include "study/explain.hpp"
-#include "study/provenance.hpp"
 #include "study/statistics.hpp"
 #include "tracer/tracer.hpp"
 
 namespace facet::bench {
 namespace {
+
+using json = nlohmann::ordered_json;
 
 struct settings {
   std::vector<std::string> scenes;
@@ -24,7 +26,7 @@ struct settings {
   int repeat = 3;
 };
 
-nlohmann::json told(const study::explanation& e) {
+json told(const study::explanation& e) {
   float worst = 0;
   for (const study::off_pixel& p : e.off) worst = std::max(worst, p.difference);
   return {{"pixels", e.pixels},
@@ -33,7 +35,7 @@ nlohmann::json told(const study::explanation& e) {
           {"worst", worst}};
 }
 
-nlohmann::json measure(const std::string& path, runtime::queue& queue, const settings& o) {
+json measure(const std::string& path, runtime::queue& queue, const settings& o) {
   const scene s = load_scene(path);
   const std::uint32_t width = o.width ? o.width : s.width;
   const auto height = std::uint32_t(std::max(1.0, double(width) * s.height / s.width + 0.5));
@@ -66,8 +68,6 @@ nlohmann::json measure(const std::string& path, runtime::queue& queue, const set
           {"height", height},
           {"samples", s.samples},
           {"triangles", s.triangle_count()},
-          {"device", stats.device},
-          {"driver", stats.driver},
           {"features", stats.features},
           {"device_s", device_s},
           {"serial_s", serial_s},
@@ -77,16 +77,16 @@ nlohmann::json measure(const std::string& path, runtime::queue& queue, const set
 }
 
 void run(const settings& o) {
-  runtime::queue queue(runtime::select_device(o.device));
-  nlohmann::json report{{"row", "pictures"},
-                        {"cpu", study::cpu_name()},
-                        {"repeat", o.repeat},
-                        {"results", nlohmann::json::array()}};
+  const runtime::device device = runtime::select_device(o.device);
+  runtime::queue queue(device);
+  json report = head_of("facet-bench-pictures", origin_now(device));
+  report["settings"] = {{"repeats", o.repeat}};
+  report["results"] = json::array();
   std::printf(
       "seconds: device, serial float on one thread; speed-up (least-most); pixels off by more "
       "than 1/255, unexplained: against float; against double\n");
   for (const std::string& path : o.scenes) report["results"].push_back(measure(path, queue, o));
-  if (!o.json.empty()) write_text(o.json, report.dump(2));
+  if (!o.json.empty()) write_result(o.json, report);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@ tell apart, and the same bytes for the same data."""
 import os
 
 import matplotlib
+from whole_file import whole_file
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (after the backend is chosen)
@@ -34,19 +35,19 @@ plt.rcParams.update({
 })
 
 
+def plain(text):
+    """Text of a file as it is: a $ in a name begins no formula."""
+    return text.replace("$", r"\$")
+
+
 def save(figure, folder, name):
     """Writes NAME.png and NAME.svg, whole or not at all; returns their paths."""
     paths = []
     for extension in ("png", "svg"):
         path = os.path.join(folder, f"{name}.{extension}")
-        partial = os.path.join(folder, f".{name}.{os.getpid()}.partial")
-        try:
+        with whole_file(path) as partial:
             figure.savefig(partial, format=extension, bbox_inches="tight", pad_inches=0.1,
                            metadata={"Date": None} if extension == "svg" else None)
-            os.replace(partial, path)
-        finally:
-            if os.path.exists(partial):
-                os.remove(partial)
         paths.append(path)
     plt.close(figure)
     return paths

@@ -7,13 +7,15 @@
 
 #include "bench/embree_peer.hpp"
 #include "bench/measure.hpp"
+#include "bench/result_file.hpp"
 #include "bench/rows.hpp"
 #include "reference/tracer.hpp"
-#include "study/provenance.hpp"
 #include "study/statistics.hpp"
 
 namespace facet::bench {
 namespace {
+
+using json = nlohmann::ordered_json;
 
 struct settings {
   std::vector<std::string> models;
@@ -21,7 +23,7 @@ struct settings {
   std::string json;
 };
 
-nlohmann::json figures(const std::vector<double>& times, std::size_t rays) {
+json figures(const std::vector<double>& times, std::size_t rays) {
   const study::summary s = study::summarize(times);
   const auto rate = [&](double t) { return double(rays) / t * 1e-6; };
   return {{"mrays_per_s", rate(s.median)},
@@ -31,8 +33,8 @@ nlohmann::json figures(const std::vector<double>& times, std::size_t rays) {
 }
 
 /// Times both on the same rays; prints a line and gives it as JSON.
-nlohmann::json compare(const std::string& name, const char* kind, const std::vector<ray>& rays,
-                       const reference::tracer<float>& ours, const embree_peer* peer, int repeat) {
+json compare(const std::string& name, const char* kind, const std::vector<ray>& rays,
+             const reference::tracer<float>& ours, const embree_peer* peer, int repeat) {
   std::vector<hit> hits(rays.size()), peer_hits(rays.size());
   std::vector<double> times, peer_times, ratios;
   for (int i = 0; i < repeat; ++i) {
@@ -43,7 +45,7 @@ nlohmann::json compare(const std::string& name, const char* kind, const std::vec
     peer_times.push_back(seconds([&] { peer->closest(rays, peer_hits); }));
     ratios.push_back(peer_times.back() / times.back());
   }
-  nlohmann::json row{{"mesh", name}, {"rays", kind}, {"count", rays.size()}};
+  json row{{"mesh", name}, {"rays", kind}, {"count", rays.size()}};
   row["reference"] = figures(times, rays.size());
   std::printf("%-24s %-8s %9zu  %6.2f (%.2f-%.2f)", name.c_str(), kind, rays.size(),
               double(row["reference"]["mrays_per_s"]),
@@ -73,14 +75,11 @@ void run(const settings& o) {
   const std::string peer_name = embree_version();
   if (peer_name.empty())
     std::printf("Built without Embree (libembree-dev): its figures are left out.\n");
-  nlohmann::json report{{"row", "reference"},
-                        {"cpu", study::cpu_name()},
-                        {"compiler", __VERSION__},
-                        {"threads", 1},
-                        {"repeat", o.repeat}};
-  report["peer"] = peer_name.empty() ? nlohmann::json() : nlohmann::json(peer_name);
-  report["results"] = nlohmann::json::array();
-  report["builds"] = nlohmann::json::array();
+  json report = head_of("facet-bench-reference", origin_now());
+  report["settings"] = {{"repeats", o.repeat}, {"compiler", __VERSION__}};
+  report["peer"] = peer_of(peer_name, 1);
+  report["results"] = json::array();
+  report["builds"] = json::array();
 
   std::printf("Closest hits on one thread, Mrays/s: median (least-most)%s\n",
               peer_name.empty() ? "" : "; Embree; ratio; hit in one and miss in the other");
@@ -92,11 +91,10 @@ void run(const settings& o) {
     const double build = seconds([&] { ours = std::make_unique<reference::tracer<float>>(s); });
     std::unique_ptr<embree_peer> peer;
     if (!peer_name.empty()) peer = std::make_unique<embree_peer>(s.meshes[0], 1);
-    report["builds"].push_back(
-        {{"mesh", name},
-         {"triangles", s.triangle_count()},
-         {"reference_s", build},
-         {"embree_s", peer ? nlohmann::json(peer->build_seconds()) : nlohmann::json()}});
+    report["builds"].push_back({{"mesh", name},
+                                {"triangles", s.triangle_count()},
+                                {"reference_s", build},
+                                {"embree_s", peer ? json(peer->build_seconds()) : json()}});
 
     std::vector<hit> hits;
     for (const ray& r : primary) hits.push_back(ours->closest(r));
@@ -105,7 +103,7 @@ void run(const settings& o) {
     results.push_back(compare(name, "primary", primary, *ours, peer.get(), o.repeat));
     results.push_back(compare(name, "bounce", bounce, *ours, peer.get(), o.repeat));
   }
-  if (!o.json.empty()) write_text(o.json, report.dump(2));
+  if (!o.json.empty()) write_result(o.json, report);
 }
 
 }  // namespace

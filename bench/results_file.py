@@ -7,23 +7,9 @@ class ResultError(Exception):
     """What was found, where, what is allowed, and what to do."""
 
 
-def format_of(path, formats):
-    """The "format" of a JSON file, which must be a key of `formats`."""
-    return _read(path, formats)["format"]
-
-
 def read_file(path, formats):
     """The content of a JSON file whose "format" is a key of `formats` and whose "version" is the
     value there. Raises ResultError for anything else."""
-    content = _read(path, formats)
-    found, version = content["format"], content.get("version")
-    if version != formats[found]:
-        raise ResultError(f"{path}: found version {json.dumps(version)} of {found}; allowed: "
-                          f"{formats[found]}. Measure again, or plot with the Facet that wrote it")
-    return content
-
-
-def _read(path, formats):
     try:
         with open(path, encoding="utf-8") as file:
             content = json.load(file)
@@ -37,8 +23,19 @@ def _read(path, formats):
     found = content.get("format") if isinstance(content, dict) else None
     if found not in formats:
         allowed = ", ".join(json.dumps(name) for name in sorted(formats))
-        raise ResultError(f"{path}: found the format {json.dumps(found)}; allowed: {allowed}")
+        older = "; what an older Facet wrote without a format is to be measured again"
+        raise ResultError(f"{path}: found the format {json.dumps(found)}; allowed: {allowed}"
+                          f"{older if found is None else ''}")
+    version = content.get("version")
+    if version != formats[found]:
+        raise ResultError(f"{path}: found version {json.dumps(version)} of {found}; allowed: "
+                          f"{formats[found]}. Measure again, or plot with the Facet that wrote it")
     return content
+
+
+def short_commit(commit):
+    """As much of a commit as names it, and whether files differed from it."""
+    return commit[:12] + ("-modified" if commit.endswith("-modified") else "")
 
 
 class Node:

@@ -92,7 +92,7 @@ def _captions(axes, result, experiment):
     text = result.caption()
     if left_out := _left_out(experiment):
         text += f"\nnot drawn: {left_out}"
-    axes.annotate(text, (0, 0), xycoords="axes fraction", xytext=(-40, -38),
+    axes.annotate(style.plain(text), (0, 0), xycoords="axes fraction", xytext=(-40, -38),
                   textcoords="offset points", va="top", fontsize=7, color=style.GREY)
 
 
@@ -110,14 +110,14 @@ def blocks(results, name):
         ratio.axhline(1, color=style.BLACK, linestyle=":")
         ratio.set_xlabel("work-items of a group")
         if len(results) > 1:
-            time.set_title(f"{result.device}, {result.date}")
+            time.set_title(style.plain(f"{result.device}, {result.date}"))
         _captions(ratio, result, experiment)
     grid[0][0].plot([], [], linestyle="none", marker="o", color=style.GREY,
                     label="filled: among the best, whose intervals overlap")
     handles, labels = grid[0][0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="lower center", ncol=3 if len(results) == 1 else 4,
                   bbox_to_anchor=(0.5, 0.91), frameon=False)
-    figure.suptitle(experiments[0].title, y=1.03)
+    figure.suptitle(style.plain(experiments[0].title), y=1.03)
     return figure
 
 
@@ -146,7 +146,7 @@ def shapes_map(result, name):
     axes.set_xlabel("width of a group (work-items)")
     axes.set_ylabel("height of a group (work-items)")
     axes.grid(False)
-    axes.set_title(f"{experiment.title}\n"
+    axes.set_title(f"{style.plain(experiment.title)}\n"
                    "kernel time in ms; framed: best, intervals overlap; hatched: not measured")
     bar = figure.colorbar(image, ax=axes, pad=0.02)
     bar.set_label("speed, as a share of the fastest shape's")

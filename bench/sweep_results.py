@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 
-from results_file import Node, ResultError, read_file
+from results_file import Node, ResultError, read_file, short_commit
 
 FORMAT, VERSION = "facet-sweep", 1
 
@@ -77,7 +77,7 @@ class Result:
     def caption(self):
         """Where and when: for the foot of each figure."""
         return (f"{self.device}, driver {self.driver}; serial: {self.cpu}, one thread\n{self.date}, "
-                f"Facet {self.commit[:12]}; medians of {self.repeats} and their "
+                f"Facet {short_commit(self.commit)}; medians of {self.repeats} and their "
                 f"{100 * self.level:g}% bootstrap intervals"
                 + ("" if self.complete else "; interrupted, not complete"))
 

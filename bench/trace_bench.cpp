@@ -7,14 +7,16 @@
 
 #include "bench/embree_peer.hpp"
 #include "bench/measure.hpp"
+#include "bench/result_file.hpp"
 #include "bench/rows.hpp"
 #include "runtime/runtime.hpp"
-#include "study/provenance.hpp"
 #include "study/statistics.hpp"
 #include "tracer/tracer.hpp"
 
 namespace facet::bench {
 namespace {
+
+using json = nlohmann::ordered_json;
 
 struct settings {
   std::vector<std::string> meshes{"terrain:1000", "soup:1000000"};
@@ -23,7 +25,7 @@ struct settings {
   unsigned threads = std::thread::hardware_concurrency();
 };
 
-nlohmann::json rates(const std::vector<double>& seconds, std::size_t rays) {
+json rates(const std::vector<double>& seconds, std::size_t rays) {
   std::vector<double> rate;
   for (double s : seconds) rate.push_back(double(rays) / s * 1e-6);
   const study::summary r = study::summarize(rate);
@@ -34,9 +36,9 @@ nlohmann::json rates(const std::vector<double>& seconds, std::size_t rays) {
 }
 
 /// One kind of rays: times both, prints a line, gives it as JSON, and the device's hits.
-nlohmann::json measure(const std::string& name, const char* kind, const std::vector<ray>& rays,
-                       bool any, tracer::device_scene& ours, const embree_peer* peer,
-                       const settings& o, std::vector<tracer::hit>& hits) {
+json measure(const std::string& name, const char* kind, const std::vector<ray>& rays, bool any,
+             tracer::device_scene& ours, const embree_peer* peer, const settings& o,
+             std::vector<tracer::hit>& hits) {
   const std::vector<tracer::ray> input = packed(rays);
   std::vector<hit> peer_hits(rays.size());
   std::vector<double> times, peer_times, ratios;
@@ -49,7 +51,7 @@ nlohmann::json measure(const std::string& name, const char* kind, const std::vec
     peer_times.push_back(seconds([&] { peer->trace(rays, any, o.threads, peer_hits); }));
     ratios.push_back(peer_times.back() / times.back());
   }
-  nlohmann::json row{{"mesh", name}, {"rays", kind}, {"count", rays.size()}};
+  json row{{"mesh", name}, {"rays", kind}, {"count", rays.size()}};
   row["facet"] = rates(times, rays.size());
   std::printf("%-22s %-8s %8zu  %9.2f (%.2f-%.2f)", name.c_str(), kind, rays.size(),
               double(row["facet"]["mrays_per_s"]), double(row["facet"]["mrays_per_s_least"]),
@@ -79,14 +81,11 @@ void run(const settings& o) {
                                               : tracer::geometry_kind::automatic;
   options.tree = o.tree == "none" ? tracer::tree_kind::none : tracer::tree_kind::levels;
   const std::string peer_name = embree_version();
-  nlohmann::json report{{"row", "trace"},
-                        {"cpu", study::cpu_name()},
-                        {"repeat", o.repeat},
-                        {"threads", o.threads},
-                        {"tree", o.tree},
-                        {"results", nlohmann::json::array()},
-                        {"builds", nlohmann::json::array()}};
-  report["peer"] = peer_name.empty() ? nlohmann::json() : nlohmann::json(peer_name);
+  json report = head_of("facet-bench-trace", origin_now(device));
+  report["settings"] = {{"repeats", o.repeat}, {"tree", o.tree}, {"geometry", o.geometry}};
+  report["peer"] = peer_of(peer_name, o.threads);
+  report["results"] = json::array();
+  report["builds"] = json::array();
   std::printf("Mrays/s: median (least-most)%s\n",
               peer_name.empty() ? "; built without Embree: its figures are left out"
                                 : "; Embree; ratio; hit in one and miss in the other");
@@ -110,12 +109,9 @@ void run(const settings& o) {
 
     tracer::statistics st;
     ours.trace({}, false, 1, &st);
-    report["device"] = st.device;
-    report["platform"] = st.platform;
-    report["driver"] = st.driver;
-    report["geometry"] = st.geometry;
     report["builds"].push_back({{"mesh", name},
                                 {"triangles", s.triangle_count()},
+                                {"geometry", st.geometry},
                                 {"build_ms", st.build_ms},
                                 {"upload_ms", st.upload_ms},
                                 {"compile_ms", st.compile_ms},
@@ -124,7 +120,7 @@ void run(const settings& o) {
     std::printf("%-22s built in %.1f ms, compiled in %.0f ms, depth %u, on %s\n", name.c_str(),
                 st.build_ms, st.compile_ms, st.tree_depth, st.device.c_str());
   }
-  if (!o.json.empty()) write_text(o.json, report.dump(2));
+  if (!o.json.empty()) write_result(o.json, report);
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 
-from results_file import Node, ResultError, read_file
+from results_file import Node, ResultError, read_file, short_commit
 
 FORMAT, VERSION = "facet-variants", 1
 
@@ -60,7 +60,7 @@ class Result:
         """Where and when: for the foot of each figure."""
         width, height = self.picture[:2]
         return (f"{self.device}, driver {self.driver}; {width}{TIMES}{height} pixels; double "
-                f"reference: {self.cpu}\n{self.date}, Facet {self.commit[:12]}; medians of "
+                f"reference: {self.cpu}\n{self.date}, Facet {short_commit(self.commit)}; medians of "
                 f"{self.repeats} and their {100 * self.level:g}% bootstrap intervals"
                 + ("" if self.complete else "; interrupted, not complete"))
 

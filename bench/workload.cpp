@@ -39,11 +39,11 @@ mesh find_mesh(const std::string& name) {
   return read_obj(name).mesh;
 }
 
-/// The i-th ray belongs to this pixel: 8 x 4 tiles, row by row.
-void pixel_of(int i, int& x, int& y) {
-  const int tile = i / 32, k = i % 32, across = picture_width / 8;
-  x = tile % across * 8 + k % 8;
-  y = tile / across * 4 + k / 8;
+/// The i-th ray belongs to this pixel: tile after tile, row by row.
+void pixel_of(int i, int width, int& x, int& y) {
+  const int tile = i / tile_rays, k = i % tile_rays, across = width / tile_width;
+  x = tile % across * tile_width + k % tile_width;
+  y = tile / across * tile_height + k / tile_width;
 }
 
 struct leaving {
@@ -79,16 +79,16 @@ scene scene_of(mesh m) {
   return s;
 }
 
-std::vector<ray> primary_rays() {
-  constexpr auto w = float(picture_width), h = float(picture_height);
+std::vector<ray> primary_rays(int width, int height) {
+  const auto w = float(width), h = float(height);
   const vec3f eye{0.75f, 0.55f, 1.05f}, at{0, -0.02f, 0};
   const vec3f forward = unit(at - eye), right = unit(cross(forward, {0, 1, 0})),
               up = cross(right, forward);
   const float half = std::tan(0.5f * 40 * 3.14159265f / 180);
-  std::vector<ray> rays(std::size_t(picture_width) * picture_height);
+  std::vector<ray> rays(std::size_t(width) * std::size_t(height));
   for (std::size_t i = 0; i < rays.size(); ++i) {
     int x, y;
-    pixel_of(int(i), x, y);
+    pixel_of(int(i), width, x, y);
     const float sx = ((float(x) + 0.5f) / w * 2 - 1) * half * w / h;
     const float sy = (1 - (float(y) + 0.5f) / h * 2) * half;
     rays[i] = {eye, 0, unit(forward + right * sx + up * sy), 1e30f};

@@ -1,6 +1,6 @@
 // The workload of the trace figures: one mesh scaled to a longest side of 1 around the origin, the
-// eye rays of a 1920 x 1080 picture in tiles of 8 x 4, and from each of their hits one shadow ray
-// and one bounce ray. The floats are part of the definition: peers are compared on the same rays.
+// eye rays of a picture in tiles of 8 x 4, and from each of their hits one shadow ray and one
+// bounce ray. The floats are part of the definition: peers are compared on the same rays.
 #pragma once
 
 #include <cstdint>
@@ -14,6 +14,7 @@
 namespace facet::bench {
 
 inline constexpr int picture_width = 1920, picture_height = 1080;
+inline constexpr int tile_width = 8, tile_height = 4, tile_rays = tile_width * tile_height;
 
 using ray = reference::ray<float>;
 using hit = reference::hit<float>;
@@ -25,7 +26,9 @@ mesh load_workload(const std::string& name);
 /// The mesh alone: one instance under the identity, one material.
 scene scene_of(mesh m);
 
-std::vector<ray> primary_rays();
+/// Tile by tile, so that each tile_rays rays are neighbours. The width is a multiple of 8, the
+/// height one of 4.
+std::vector<ray> primary_rays(int width = picture_width, int height = picture_height);
 
 /// As the device tracer takes them.
 std::vector<tracer::ray> packed(const std::vector<ray>& rays);

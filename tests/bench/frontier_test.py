@@ -29,7 +29,7 @@ from matplotlib.text import Text  # noqa: E402
 
 plot_style.plt.rcParams["savefig.dpi"] = 40  # what is drawn does not depend on it
 
-PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else None
+PROGRAM = sys.argv[1] if len(sys.argv) > 1 else None
 
 
 def times(ms):
@@ -209,7 +209,7 @@ class Frontier(unittest.TestCase):
         newer["version"] = 2
         self.refused(["found version 2 of facet-variants", "allowed: 1"], self.put("a.json", newer))
         sweep = {"format": "facet-sweep", "version": 1}
-        self.refused(["b.json: found the format facet-sweep", "a.json is facet-variants"],
+        self.refused(["b.json: found the format facet-sweep", "a.json has facet-variants"],
                      self.put("a.json", result()), self.put("b.json", sweep))
         self.refused(['"facet-sweep", "facet-variants"'],
                      self.put("a.json", {"format": "npy", "version": 1}))
@@ -233,4 +233,4 @@ class Frontier(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    unittest.main(argv=sys.argv[:1])

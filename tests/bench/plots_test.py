@@ -2,35 +2,15 @@
 """Plots of results: what is drawn, and what is refused. Usage: plots_test.py [FACET]; with the
 program, and a device, a real sweep is plotted, too. Exit code 77 without matplotlib."""
 
-import contextlib
-import io
-import json
 import os
 import subprocess
 import sys
-import tempfile
 import unittest
-import xml.etree.ElementTree as ElementTree
 
 sys.dont_write_bytecode = True
-sys.path.insert(0, os.path.join(os.path.dirname(__file__), "..", "..", "bench"))
-try:
-    import matplotlib  # noqa: F401
-except ImportError:
-    print("SKIPPED: no matplotlib (Debian package python3-matplotlib)")
-    sys.exit(77)
-import plot_style  # noqa: E402
-import plots  # noqa: E402
+from plots_helper import PlotsTest, estimate  # noqa: E402
 
-plot_style.plt.rcParams["savefig.dpi"] = 40  # what is drawn does not depend on it
-
-PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else None
-
-
-def estimate(ms):
-    return {"samples_ms": [ms], "summary": {
-        "median_ms": ms, "interval_ms": [0.9 * ms, 1.2 * ms], "mean_ms": ms, "deviation_ms": 0,
-        "least_ms": ms, "most_ms": ms}}
+PROGRAM = sys.argv[1] if len(sys.argv) > 1 else None
 
 
 def shape(name, ms):
@@ -65,37 +45,7 @@ def result(*names):
         "experiments": [experiment(name) for name in names or ("tree",)]}
 
 
-class Plots(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-
-    def path(self, name):
-        return os.path.join(self.folder.name, name)
-
-    def put(self, name, content):
-        with open(self.path(name), "w", encoding="utf-8") as file:
-            file.write(content if isinstance(content, str) else json.dumps(content))
-        return self.path(name)
-
-    def run_plots(self, *files, out="plots"):
-        said = io.StringIO()
-        with contextlib.redirect_stderr(said), contextlib.redirect_stdout(io.StringIO()):
-            code = plots.main([*files, "--out", self.path(out)])
-        return code, said.getvalue()
-
-    def refused(self, parts, *files):
-        code, said = self.run_plots(*files)
-        self.assertEqual(code, 3, said)
-        for part in parts:
-            self.assertIn(part, said)
-        self.assertFalse(os.path.exists(self.path("plots")) and os.listdir(self.path("plots")))
-
-    def texts(self, name):
-        tree = ElementTree.parse(self.path(os.path.join("plots", name)))
-        return "\n".join("".join(node.itertext()) for node in tree.iter()
-                         if node.tag.endswith("}text"))
-
+class Plots(PlotsTest):
     def test_each_experiment_has_its_plots_as_png_and_svg(self):
         code, said = self.run_plots(self.put("a.json", result("no-tree", "tree")))
         self.assertEqual(code, 0, said)
@@ -202,4 +152,4 @@ class Plots(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    unittest.main(argv=sys.argv[:1])

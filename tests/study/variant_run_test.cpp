@@ -126,9 +126,9 @@ TEST_CASE("a hole in the kernel shows as errors, in hits and in the picture") {
   listed_variant& holes = list.emplace_back(list[0]);
   holes.name = "holes", holes.is_exact = false;
   // Every fourth triangle is never met.
-  holes.options.edits = {{"traverse.h", "const uint triangle = s->infos[slot].triangle;",
-                          "const uint triangle = s->infos[slot].triangle;\n"
-                          "  if (triangle % 4u == 3u) return false;"}};
+  holes.options.edits = {
+      {"traverse.h", "  q->t = hit.t;",
+       "  if (s->infos[slot].triangle % 4u == 3u) return false;\n  q->t = hit.t;"}};
   scene s = mirror();
   s.view.position = {0.1, 40, 0.2};
   const auto r = measured(list, s);

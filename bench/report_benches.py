@@ -1,0 +1,155 @@
+"""Sections of the hard cases and of facet_bench's rows: tables alone."""
+
+from report_page import ends, note, number, table
+from sweep_results import Estimate
+
+
+def _failures(findings):
+    """As `facet accuracy` counts them: a figure that is not met is one."""
+    return sum(f["failed"].get(int) if f.find("failed") and f["failed"].get(int)
+               else int(not f["met"].get(bool)) for f in findings if f["goal"].get(bool))
+
+
+def _case(right, wrong):
+    findings = right["findings"].items()
+    checks = sum(f["tried"].get(int) if f.find("tried") else 1
+                 for f in findings if f["goal"].get(bool))
+    caught = ""
+    if wrong:
+        failed = _failures(wrong["findings"].items())
+        caught = f"{wrong['mistake'].get(str)}: {failed:,}" + ("" if failed else " NOT CAUGHT")
+    return (right["case"].get(int), right["name"].get(str), number(checks),
+            number(_failures(findings)), "met" if right["met"].get(bool) else "NOT MET", caught)
+
+
+def accuracy(root, _):
+    runs = root["cases"].items() if root.find("cases") else []
+    wrong = {r["case"].get(int): r for r in runs if r.find("mistake")}
+    right = [r for r in runs if not r.find("mistake")]
+    figures = [(r["case"].get(int), f["what"].get(str), number(f["measured"].get(float)),
+                f["unit"].get(str) if f.find("unit") else "",
+                f"{f['limit'].get(float):g}" if f.find("limit") else "")
+               for r in right for f in r["findings"].items() if f.find("measured")]
+    blocks = [table("Hard cases: what was checked against an exact oracle, and how often a mistake put "
+                    "into the kernels was caught", ("#case", "what", "#checks", "#failures", "goal",
+                                                    "failures with a mistake"),
+                    [_case(r, wrong.get(r["case"].get(int))) for r in right])]
+    if figures:
+        blocks.append(table("Figures that the cases measured", ("#case", "what", "#measured", "unit",
+                                                               "#at most"), figures))
+    return blocks
+
+
+def exactness(root, _):
+    """What the strict kernel loses against the fastest inexact one, and each variant's rate."""
+    groups = {}
+    for r in root["results"].items():
+        groups.setdefault((r["mesh"].get(str), r["rays"].get(str)), []).append(r)
+    costs, rows = [], []
+    for (mesh, rays), variants in groups.items():
+        strict = _of_kind(variants, "strict")[0]
+        rate_of = (lambda v: v["mrays_per_s"].get(float))
+        fastest = max(_of_kind(variants, "inexact"), key=rate_of)
+        costs.append((mesh, rays, number(rate_of(strict)), number(rate_of(fastest)),
+                      fastest["variant"].get(str),
+                      f"{100 * (1 - rate_of(strict) / rate_of(fastest)):.1f}",
+                      number(fastest["other_hits"].get(int)), number(fastest["count"].get(int))))
+        for v in variants:
+            samples = [s.get(float) for s in v["mrays_per_s_all"].items()] or [rate_of(v)]
+            rows.append((mesh, rays, v["variant"].get(str), v["kind"].get(str),
+                         spread_of(rate_of(v), samples),
+                         f"{100 * (rate_of(v) / rate_of(strict) - 1):+.1f}",
+                         number(v["other_hits"].get(int))))
+    return [table("What the strict kernel loses against the fastest of those that leave out all that "
+                  "makes hits exact, and for how many rays that one finds another hit",
+                  ("mesh", "rays", "#strict, Mrays/s", "#fastest, Mrays/s", "the fastest", "#loss, %",
+                   "#its other hits", "#of rays"), costs),
+            table("Each variant: median (least\N{EN DASH}most), how much faster than the strict kernel "
+                  "it is, and hits that are not the strict kernel's; \"one guard\" changes one of those "
+                  "things alone", ("mesh", "rays", "variant", "kind", "#Mrays/s", "#faster, %",
+                                   "#other hits"), rows)]
+
+
+def _of_kind(variants, kind):
+    some = [v for v in variants if v["kind"].get(str) == kind]
+    if not some:
+        variants[0].fail(f"no variant of its mesh and rays is of the kind {kind}")
+    return some
+
+
+def spread_of(value, samples):
+    """A median, the least and the most."""
+    return f"{number(value)} {ends(number(min(samples)), number(max(samples)))}"
+
+
+def _rates(node):
+    ends = [node[f"mrays_per_s{end}"].get(float) for end in ("", "_least", "_most")]
+    return spread_of(ends[0], ends[1:])
+
+
+def _beside_peer(ours):
+    def section(root, _):
+        rows = []
+        for r in root["results"].items():
+            peer, ratio = r.find("embree"), r.find("ratio")
+            rows.append((r["mesh"].get(str), r["rays"].get(str), number(r["count"].get(int)),
+                         _rates(r[ours]), _rates(peer) if peer else "\N{EN DASH}",
+                         _ratio(ratio) if ratio else "\N{EN DASH}",
+                         number(r["hit_or_miss_differs"].get(int)) if peer else "\N{EN DASH}"))
+        name = root["peer"]["name"].get(str) if root.find("peer") else "no peer"
+        blocks = [table(f"Mrays/s, median (least\N{EN DASH}most); peer: {name}",
+                        ("mesh", "rays", "#count", "#Facet, Mrays/s", "#peer, Mrays/s",
+                         "#ratio", "#hit in one, miss in the other"), rows)]
+        builds = [(b["mesh"].get(str), number(b["triangles"].get(int)), *_build(b))
+                  for b in root["builds"].items()]
+        return blocks + [table("Building", ("mesh", "#triangles", "#build, ms", "#peer's, ms",
+                                            "#depth"), builds)]
+    return section
+
+
+def _build(b):
+    if b.find("build_ms"):
+        return number(b["build_ms"].get(float)), "\N{EN DASH}", number(b["depth"].get(int))
+    peer = b.find("embree_s")
+    return (number(1e3 * b["reference_s"].get(float)),
+            number(1e3 * peer.get(float)) if peer else "\N{EN DASH}", "\N{EN DASH}")
+
+
+trace = _beside_peer("facet")
+reference = _beside_peer("reference")
+
+
+def _ratio(node):
+    median, least, most = (f"{node[key].get(float):.2f}" for key in ("median", "least", "most"))
+    return f"{median} {ends(least, most)}"
+
+
+def _off(node):
+    off, unexplained = node["off"].get(int), node["unexplained"].get(int)
+    return f"{off:,}" + (f", {unexplained:,} UNEXPLAINED" if unexplained else "")
+
+
+def _median(node):
+    samples = sorted(s.get(float) for s in node.items())
+    if not samples:
+        node.fail("holds no sample")
+    middle = len(samples) // 2
+    value = samples[middle] if len(samples) % 2 else (samples[middle - 1] + samples[middle]) / 2
+    return Estimate(value, samples[0], samples[-1])
+
+
+def pictures(root, _):
+    rows = []
+    for r in root["results"].items():
+        device, serial = _median(r["device_s"]), _median(r["serial_s"])
+        rows.append((r["scene"].get(str), f"{r['width'].get(int)}\N{MULTIPLICATION SIGN}"
+                     f"{r['height'].get(int)}", number(r["triangles"].get(int)),
+                     number(device.value), number(serial.value), _ratio(r["speed_up"]),
+                     number(r["against_float"]["pixels"].get(int)), _off(r["against_float"]),
+                     _off(r["against_double"])))
+    return [table("Whole pictures: seconds, and how much faster than the serial float reference on one "
+                  "thread; pixels that are off by more than 1/255",
+                  ("scene", "pixels", "#triangles", "#device, s", "#serial, s", "#speed-up",
+                   "#pixels in all", "#off, against float", "#off, against double"), rows),
+            note("Pixels that are off are at edges, if nothing else is said: a ray moved by a little "
+                 "meets other surfaces.")]
