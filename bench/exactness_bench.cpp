@@ -2,6 +2,7 @@
 // what makes hits exact (study/variants), on one tree, the same rays, alternated in one run.
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "bench/measure.hpp"
 #include "bench/result_file.hpp"
@@ -19,7 +20,7 @@ using json = nlohmann::ordered_json;
 struct settings {
   std::vector<std::string> meshes{"terrain:1000", "soup:1000000"};
   std::string device = "0", flags, json;
-  int repeat = 15;
+  int repeat = 15, slices = 1;
   bool with_guards = true;
 };
 
@@ -29,14 +30,14 @@ struct entry {
   bool is_inexact = false;       ///< it has no guard at all
   std::vector<double> rates{};   ///< Mrays/s
   std::uint64_t other_hits = 0;  ///< than the strict kernel's: triangle or miss
-
-  /// Rates of the even repeats, or of the odd ones.
-  std::vector<double> half(std::size_t first) const {
-    std::vector<double> some;
-    for (std::size_t k = first; k < rates.size(); k += 2) some.push_back(rates[k]);
-    return some;
-  }
 };
+
+/// Values of every other repeat from `first` on.
+std::vector<double> every_other(const std::vector<double>& values, std::size_t first) {
+  std::vector<double> some;
+  for (std::size_t k = first; k < values.size(); k += 2) some.push_back(values[k]);
+  return some;
+}
 
 double median(const std::vector<double>& values) { return study::summarize(values).median; }
 
@@ -46,31 +47,50 @@ struct rays_of {
   bool any;
 };
 
-/// Alternates all variants, the strict one first; a line and a JSON object for each.
-void measure(const std::string& mesh, const rays_of& r, std::vector<entry>& all, int repeat,
+/// Alternates all variants, slice by slice of the rays and each time from another one on, so that a
+/// slow spell of the machine meets all alike; a line and a JSON object for each.
+void measure(const std::string& mesh, const rays_of& r, std::vector<entry>& all, const settings& o,
              json& results) {
+  const std::size_t count = r.rays.size(),
+                    slices = std::min<std::size_t>(std::size_t(o.slices), count);
   std::vector<tracer::hit> strict;
-  for (entry& e : all) e.rates.clear();
-  for (int k = 0; k < repeat; ++k)
-    for (entry& e : all) {
-      tracer::statistics s;
-      const auto hits = e.on.trace(r.rays, r.any, 1, &s);
-      e.rates.push_back(double(r.rays.size()) / s.kernel_ms[0] * 1e-3);
-      if (k > 0) continue;
-      if (&e == &all[0]) strict = hits;
-      e.other_hits = 0;
-      for (std::size_t i = 0; i < hits.size(); ++i)
-        e.other_hits += hits[i].triangle != strict[i].triangle;
+  for (entry& e : all) e.rates.clear(), e.other_hits = 0;
+  for (std::size_t k = 0; k <= std::size_t(o.repeat); ++k) {
+    std::vector<double> ms(all.size());
+    for (std::size_t slice = 0; slice < slices; ++slice) {
+      const std::size_t from = slice * count / slices, to = (slice + 1) * count / slices;
+      const std::span<const tracer::ray> some(r.rays.data() + from, to - from);
+      for (std::size_t turn = 0; turn < all.size(); ++turn) {
+        // The first pass warms up, and compares hits: in it strict comes first.
+        const std::size_t at = k == 0 ? turn : (turn + slice + k) % all.size();
+        tracer::statistics s;
+        const auto hits = all[at].on.trace(some, r.any, 1, &s);
+        ms[at] += s.kernel_ms[0];
+        if (k > 0) continue;
+        if (at == 0) strict = hits;
+        for (std::size_t i = 0; i < hits.size(); ++i)
+          all[at].other_hits += hits[i].triangle != strict[i].triangle;
+      }
     }
+    if (k > 0)
+      for (std::size_t i = 0; i < all.size(); ++i)
+        all[i].rates.push_back(double(count) / ms[i] * 1e-3);
+  }
   // The fastest is chosen by one half of the repeats and judged by the other: were both the same,
-  // the luckiest of them would pass for the fastest.
+  // the luckiest of them would pass for the fastest. Rates are compared within a repeat.
   const entry* fastest = nullptr;
   for (const entry& e : all)
-    if (e.is_inexact && (!fastest || median(e.half(0)) > median(fastest->half(0)))) fastest = &e;
+    if (e.is_inexact &&
+        (!fastest || median(every_other(e.rates, 0)) > median(every_other(fastest->rates, 0))))
+      fastest = &e;
   for (entry& e : all) {
     const study::summary s = study::summarize(e.rates);
-    const double over = median(e.half(1)) / median(fastest->half(1));
-    const study::interval range = study::ratio_interval(e.half(1), fastest->half(1), {});
+    std::vector<double> ratios;
+    for (std::size_t k = 0; k < e.rates.size(); ++k)
+      ratios.push_back(e.rates[k] / fastest->rates[k]);
+    ratios = every_other(ratios, 1);
+    const double over = median(ratios);
+    const study::interval range = study::median_interval(ratios, {});
     std::printf("%-20s %-8s %-30s %9.2f (%.2f-%.2f)  %6.3f [%.3f, %.3f]  %llu\n", mesh.c_str(),
                 r.kind, e.what.name.c_str(), s.median, s.least, s.most, over, range.low, range.high,
                 static_cast<unsigned long long>(e.other_hits));
@@ -121,7 +141,7 @@ void run(const settings& o) {
          {rays_of{"primary", packed(primary), false},
           rays_of{"shadow", packed(shadow_rays(s.meshes[0], primary, met)), true},
           rays_of{"bounce", packed(bounce_rays(s.meshes[0], primary, met)), false}})
-      measure(name, r, all, o.repeat, report["results"]);
+      measure(name, r, all, o, report["results"]);
   }
   if (!o.json.empty()) write_result(o.json, report);
 }
@@ -137,6 +157,10 @@ void add_exactness_row(CLI::App& app) {
   row->add_option("--flags", o->flags, "more of the compiler's options, for all alike");
   row->add_option("--repeat", o->repeat, "runs of each figure, alternated")
       ->check(CLI::Range(2, 1000))
+      ->capture_default_str();
+  row->add_option("--slices", o->slices,
+                  "parts of the rays in which variants alternate; more on a noisy CPU, 1 on a GPU")
+      ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   row->add_flag("!--without-guards", o->with_guards,
                 "leave out the strict kernel without one of its guards at a time");
