@@ -50,7 +50,9 @@ def exactness():
              "bare, fast": ("inexact", 95.0, 13), "less the pad": ("one guard", 91.0, 1)}
     return origin("facet-bench-exactness", results=[
         {"mesh": "terrain:9", "rays": "primary", "count": 5000, "variant": name, "kind": kind,
-         "mrays_per_s": rate, "mrays_per_s_all": [rate - 1, rate + 1], "other_hits": other}
+         "mrays_per_s": rate, "mrays_per_s_all": [rate - 1, rate + 1], "other_hits": other,
+         "fastest_inexact": "bare", "over_fastest_inexact": rate / 100,
+         "over_fastest_inexact_interval": [rate / 100 - 0.02, rate / 100 + 0.01]}
         for name, (kind, rate, other) in rates.items()])
 
 
@@ -160,7 +162,7 @@ class Report(FilesTest):
         for part in ("Abacus 9000", "Wood, 1.2.3", "2026-01-31T23:59:59Z", "not recorded",
                      "commit 0123456789ab", "rays: 1000; seed: 7",
                      "closed mesh 1,001 0 met open: 42", "worst 2.5 ulp 8",
-                     "terrain:9 primary 90 100 bare 10.0 12 5,000", "bare inexact 100 (99\N{EN DASH}101) +11.1 12",
+                     "terrain:9 primary 90 100 bare 10.0 [9.0, 12.0] 12 5,000", "bare inexact 100 (99\N{EN DASH}101) +11.1 12",
                      "soup:10000 10,000 3,000 (2,700\N{EN DASH}3,600)",
                      "without a tree: ends before 1,000 triangles: it would take about 99 s."):
             self.assertIn(part, re.sub(r"\s+", " ", text))
