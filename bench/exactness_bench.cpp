@@ -115,12 +115,11 @@ void run(const settings& o) {
   const runtime::device device = runtime::select_device(o.device);
   runtime::queue queue(device);
   json report = head_of("facet-bench-exactness", origin_now(device));
-  report["settings"] = {{"repeats", o.repeat}, {"flags", o.flags}};
+  report["settings"] = {{"repeats", o.repeat}, {"slices", o.slices}, {"flags", o.flags}};
   report["results"] = json::array();
   std::printf(
       "Mrays/s: median (least-most); over the fastest inexact variant, with 95%% interval; hits "
-      "other than "
-      "strict\n");
+      "other than strict\n");
   const std::vector<ray> primary = primary_rays();
   for (const std::string& path : o.meshes) {
     const std::string name = path.substr(path.find_last_of('/') + 1);
