@@ -2,8 +2,8 @@
 
 from dataclasses import dataclass
 
+from measurement import Estimate, Origin, median_of, origin_of
 from results_file import Node, ResultError, read_file, short_commit
-from sweep_results import Estimate
 
 FORMAT, VERSION = "facet-growth", 1
 
@@ -37,18 +37,9 @@ class Series:
 
 
 @dataclass
-class Result:
-    path: str
-    device: str
-    driver: str
-    cpu: str
-    date: str
-    commit: str
-    complete: bool
+class Result(Origin):
     picture: tuple  # width, height
-    repeats: int
     builds: int
-    level: float
     text_hash: str
     families: dict  # name -> list of Series
 
@@ -61,14 +52,9 @@ class Result:
                 f"{100 * self.level:g}% bootstrap intervals")
 
 
-def _median(times):
-    summary = times["summary"]
-    return Estimate(summary["median_ms"].get(float), *summary["interval_ms"].pair())
-
-
 def _nanoseconds(figure):
     """Of a ray."""
-    of_all = _median(figure["time"])
+    of_all = median_of(figure["time"])
     count = figure["count"].get(int)
     if count < 1:
         figure["count"].fail(f"found {count}; allowed: at least 1")
@@ -85,7 +71,7 @@ def _point(node):
         mesh=node["mesh"].get(str),
         triangles=triangles,
         scene_hash=node["scene_hash"].get(str),
-        build_ms=_median(node["build"]),
+        build_ms=median_of(node["build"]),
         device_bytes=node["device_bytes"].get(int),
         ray_ns={f["rays"].get(str): _nanoseconds(f) for f in figures},
         differing_hits=sum(compared) if compared else None)
@@ -101,19 +87,11 @@ def _series(node):
 def read_growth(path):
     """Raises ResultError for another format or version, or where something is missing."""
     root = Node(path, read_file(path, {FORMAT: VERSION}))
-    device, settings = root["device"], root["settings"]
+    settings = root["settings"]
     return Result(
-        path=path,
-        device=device["name"].get(str),
-        driver=device["driver"].get(str),
-        cpu=root["cpu"].get(str),
-        date=root["date"].get(str),
-        commit=root["facet"]["commit"].get(str),
-        complete=root["complete"].get(bool),
+        **origin_of(path, root),
         picture=tuple(settings["picture"][side].get(int) for side in ("width", "height")),
-        repeats=settings["repeats"].get(int),
         builds=settings["builds"].get(int),
-        level=settings["bootstrap"]["level"].get(float),
         text_hash=root["kernel"]["text_hash"].get(str),
         families={f["family"].get(str): [_series(s) for s in f["series"].items()]
                   for f in root["families"].items()})

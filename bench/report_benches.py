@@ -1,7 +1,7 @@
 """Sections of the hard cases and of facet_bench's rows: tables alone."""
 
 from report_page import ends, note, number, table
-from sweep_results import Estimate
+from measurement import Estimate
 
 
 def _failures(findings):

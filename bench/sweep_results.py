@@ -2,20 +2,12 @@
 
 from dataclasses import dataclass, field
 
+from measurement import Estimate, Origin, median_if_any, origin_of
 from results_file import Node, ResultError, read_file, short_commit
 
 FORMAT, VERSION = "facet-sweep", 1
 
 TITLES = {"no-tree": "Without a tree", "tree": "With a tree", "large": "A larger scene"}
-
-
-@dataclass
-class Estimate:
-    """A median, or a ratio of medians, and the ends of its interval."""
-
-    value: float
-    low: float
-    high: float
 
 
 @dataclass
@@ -62,16 +54,7 @@ class Experiment:
 
 
 @dataclass
-class Result:
-    path: str
-    device: str
-    driver: str
-    cpu: str
-    date: str
-    commit: str
-    complete: bool
-    repeats: int
-    level: float
+class Result(Origin):
     experiments: dict  # by name
 
     def caption(self):
@@ -80,13 +63,6 @@ class Result:
                 f"Facet {short_commit(self.commit)}; medians of {self.repeats} and their "
                 f"{100 * self.level:g}% bootstrap intervals"
                 + ("" if self.complete else "; interrupted, not complete"))
-
-
-def _median(times):
-    summary = times.find("summary")
-    if summary is None:
-        return None
-    return Estimate(summary["median_ms"].get(float), *summary["interval_ms"].pair())
 
 
 def _shape(node, best):
@@ -99,7 +75,7 @@ def _shape(node, best):
             node["shape"].fail(f'found "{name}"; allowed: WIDTHxHEIGHT, or "driver"')
     shape = Shape(name, width, height, node["standing"].get(str), is_best=name in best)
     if kernel := node.find("kernel"):
-        shape.kernel_ms = _median(kernel)
+        shape.kernel_ms = median_if_any(kernel)
     if ratio := node.find("speed_up") and node["speed_up"].find("kernel"):
         shape.speed_up = Estimate(ratio["value"].get(float), *ratio["interval"].pair())
     return shape
@@ -116,7 +92,7 @@ def _experiment(node):
         text_hash=node["kernel"]["text_hash"].get(str),
         tree=node["tree"]["kind"].get(str),
         picture=tuple(picture[key].get(int) for key in ("width", "height", "max_depth", "samples")),
-        serial_ms=_median(node["serial"]["wall"]),
+        serial_ms=median_if_any(node["serial"]["wall"]),
         shapes=[_shape(item, best) for item in node["shapes"].items()])
 
 
@@ -124,17 +100,8 @@ def read_sweep(path):
     """Raises ResultError for another format or version, or where something is missing."""
     root = Node(path, read_file(path, {FORMAT: VERSION}))
     experiments = [_experiment(item) for item in root["experiments"].items()]
-    device, settings = root["device"], root["settings"]
     return Result(
-        path=path,
-        device=device["name"].get(str),
-        driver=device["driver"].get(str),
-        cpu=root["cpu"].get(str),
-        date=root["date"].get(str),
-        commit=root["facet"]["commit"].get(str),
-        complete=root["complete"].get(bool),
-        repeats=settings["repeats"].get(int),
-        level=settings["bootstrap"]["level"].get(float),
+        **origin_of(path, root),
         experiments={e.name: e for e in experiments})
 
 

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, field
 
+from measurement import Estimate, Origin, median_if_any, origin_of
 from results_file import Node, ResultError, read_file, short_commit
 
 FORMAT, VERSION = "facet-variants", 1
@@ -10,22 +11,13 @@ TIMES = "\N{MULTIPLICATION SIGN}"
 
 
 @dataclass
-class Speed:
-    """Of a median time, and of the ends of its interval."""
-
-    value: float
-    low: float
-    high: float
-
-
-@dataclass
 class Variant:
     name: str
     family: str
     state: str
     traces_itself: bool = False  # its rays are not those of another variant
-    pixels: Speed | None = None  # million a second, of pictures; none without times
-    rays: Speed | None = None  # million a second, of eye and bounce rays
+    pixels: Estimate | None = None  # million a second, of pictures; none without times
+    rays: Estimate | None = None  # million a second, of eye and bounce rays
     wrong_per_million: float = 0
     errors_per_million: float = 0  # of these, neither ties nor silhouettes
     rmse: float = 0
@@ -34,16 +26,7 @@ class Variant:
 
 
 @dataclass
-class Result:
-    path: str
-    device: str
-    driver: str
-    cpu: str
-    date: str
-    commit: str
-    complete: bool
-    repeats: int
-    level: float
+class Result(Origin):
     scene: str
     triangles: int
     scene_hash: str
@@ -65,20 +48,12 @@ class Result:
                 + ("" if self.complete else "; interrupted, not complete"))
 
 
-def _times(node):
-    """Median and interval in milliseconds; None without samples."""
-    summary = node.find("summary")
-    if summary is None:
-        return None
-    return (summary["median_ms"].get(float), *summary["interval_ms"].pair())
-
-
 def _speed(work, times):
     """Millions a second, of that many in the times' sum; the slowest is the low end."""
-    if not times or any(t is None or min(t) <= 0 for t in times):
+    if not times or any(t is None or t.low <= 0 for t in times):
         return None
-    median, fastest, slowest = (sum(t[k] for t in times) for k in range(3))
-    return Speed(work / median * 1e-3, work / slowest * 1e-3, work / fastest * 1e-3)
+    median, fastest, slowest = (sum(getattr(t, end) for t in times) for end in ("value", "low", "high"))
+    return Estimate(work / median * 1e-3, work / slowest * 1e-3, work / fastest * 1e-3)
 
 
 def _variant(node, pixels):
@@ -87,7 +62,7 @@ def _variant(node, pixels):
     picture = node.find("picture")
     if picture is None:  # refused, or interrupted before
         return v
-    v.pixels = _speed(pixels, [_times(picture["kernel"])])
+    v.pixels = _speed(pixels, [median_if_any(picture["kernel"])])
     errors = picture["errors"]
     v.rmse = errors["linear"]["all"]["rmse"].get(float)
     v.rmse_rest = errors["linear"]["without_silhouettes"]["rmse"].get(float)
@@ -95,7 +70,7 @@ def _variant(node, pixels):
     sets = [s for s in node["hits"].items() if s["count"].get(int) > 0]
     count = sum(s["count"].get(int) for s in sets)
     if count:
-        v.rays = _speed(count, [_times(s["kernel"]) for s in sets])
+        v.rays = _speed(count, [median_if_any(s["kernel"]) for s in sets])
         v.wrong_per_million, v.errors_per_million = (
             1e6 * sum(s["errors"][key].get(int) for s in sets) / count for key in ("wrong", "errors"))
     return v
@@ -104,19 +79,11 @@ def _variant(node, pixels):
 def read_variants(path):
     """Raises ResultError for another format or version, or where something is missing."""
     root = Node(path, read_file(path, {FORMAT: VERSION}))
-    device, settings, scene = root["device"], root["settings"], root["scene"]
+    scene = root["scene"]
     picture = tuple(root["picture"][key].get(int)
                     for key in ("width", "height", "max_depth", "samples"))
     return Result(
-        path=path,
-        device=device["name"].get(str),
-        driver=device["driver"].get(str),
-        cpu=root["cpu"].get(str),
-        date=root["date"].get(str),
-        commit=root["facet"]["commit"].get(str),
-        complete=root["complete"].get(bool),
-        repeats=settings["repeats"].get(int),
-        level=settings["bootstrap"]["level"].get(float),
+        **origin_of(path, root),
         scene=scene["name"].get(str),
         triangles=scene["triangles"].get(int),
         scene_hash=scene["hash"].get(str),

@@ -2,40 +2,21 @@
 """Plots of speed against error: what is drawn, and what is refused. Usage: frontier_test.py [FACET];
 with the program, and a device, a real study is plotted, too. Exit code 77 without matplotlib."""
 
-import contextlib
 import copy
-import io
-import json
 import os
 import subprocess
 import sys
-import tempfile
 import unittest
-import xml.etree.ElementTree as ElementTree
 
 sys.dont_write_bytecode = True
-sys.path.insert(0, os.path.join(os.path.dirname(__file__), "..", "..", "bench"))
-try:
-    import matplotlib  # noqa: F401
-except ImportError:
-    print("SKIPPED: no matplotlib (Debian package python3-matplotlib)")
-    sys.exit(77)
+from plots_helper import PlotsTest, estimate  # noqa: E402
 import frontier_figures  # noqa: E402
 import plot_labels  # noqa: E402
 import plot_style  # noqa: E402
-import plots  # noqa: E402
 import variant_results  # noqa: E402
 from matplotlib.text import Text  # noqa: E402
 
-plot_style.plt.rcParams["savefig.dpi"] = 40  # what is drawn does not depend on it
-
 PROGRAM = sys.argv[1] if len(sys.argv) > 1 else None
-
-
-def times(ms):
-    return {"samples_ms": [ms], "summary": {
-        "median_ms": ms, "interval_ms": [0.9 * ms, 1.2 * ms], "mean_ms": ms, "deviation_ms": 0,
-        "least_ms": ms, "most_ms": ms}}
 
 
 def variant(name, family, ms, rmse, flip, errors=0, ties=0, hits_of=None):
@@ -44,10 +25,10 @@ def variant(name, family, ms, rmse, flip, errors=0, ties=0, hits_of=None):
         "name": name, "family": family, "about": name, "state": "measured", "max_depth": 2,
         "promised_exact": family == "exact", "hits_of": hits_of or name,
         "picture": {
-            "kernel": times(ms), "rays": 1000,
+            "kernel": estimate(ms), "rays": 1000,
             "errors": {"linear": {"all": {"rmse": 2 * rmse}, "without_silhouettes": {"rmse": rmse}},
                        "displayed": {"flip_mean": flip}}},
-        "hits": [{"rays": kind, "count": 500, "kernel": times(ms / 4), "errors": dict(hit_errors)}
+        "hits": [{"rays": kind, "count": 500, "kernel": estimate(ms / 4), "errors": dict(hit_errors)}
                  for kind in ("eye", "bounce")]}
 
 
@@ -70,36 +51,7 @@ def result():
              "promised_exact": True, "hits_of": "images", "reason": "no images"}]}
 
 
-class Frontier(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-
-    def path(self, name):
-        return os.path.join(self.folder.name, name)
-
-    def put(self, name, content):
-        with open(self.path(name), "w", encoding="utf-8") as file:
-            json.dump(content, file)
-        return self.path(name)
-
-    def run_plots(self, *files, out="plots"):
-        said = io.StringIO()
-        with contextlib.redirect_stderr(said), contextlib.redirect_stdout(io.StringIO()):
-            code = plots.main([*files, "--out", self.path(out)])
-        return code, said.getvalue()
-
-    def refused(self, parts, *files):
-        code, said = self.run_plots(*files)
-        self.assertEqual(code, 3, said)
-        for part in parts:
-            self.assertIn(part, said)
-        self.assertFalse(os.path.exists(self.path("plots")) and os.listdir(self.path("plots")))
-
-    def texts(self, name):
-        tree = ElementTree.parse(self.path(os.path.join("plots", name)))
-        return ["".join(node.itertext()) for node in tree.iter() if node.tag.endswith("}text")]
-
+class Frontier(PlotsTest):
     def test_each_layer_has_its_plot_with_units_names_scene_device_and_date(self):
         code, said = self.run_plots(self.put("a.json", result()))
         self.assertEqual(code, 0, said)
@@ -111,17 +63,17 @@ class Frontier(unittest.TestCase):
         units = {"hits": ("(Mrays/s)", "per million rays"), "linear": ("(Mpixels/s)", "RMSE"),
                  "displayed": ("(Mpixels/s)", "FLIP")}
         for layer, axes in units.items():
-            text = "\n".join(self.texts(f"a-{layer}.svg"))
+            text = self.texts(f"a-{layer}.svg")
             for part in (*axes, "made up, 1,234 triangles", "Abacus 9000", "driver 1.2.3",
                          "2026-01-31T23:59:59Z", "64\u00d732 pixels", "strict", "fast-math", "MT",
                          "abacus", "frontier", "refused by the device: images"):
                 self.assertIn(part, text)
         # What changes shading alone has the strict one's hits: it is no point of that plot.
-        self.assertIn("depth-1", self.texts("a-linear.svg"))
-        self.assertNotIn("depth-1", self.texts("a-hits.svg"))
+        self.assertIn("depth-1", self.labels("a-linear.svg"))
+        self.assertNotIn("depth-1", self.labels("a-hits.svg"))
         # An error of 0 has its tick where there is one.
-        self.assertIn("0", self.texts("a-displayed.svg"))
-        self.assertNotIn("0", self.texts("a-linear.svg"))
+        self.assertIn("0", self.labels("a-displayed.svg"))
+        self.assertNotIn("0", self.labels("a-linear.svg"))
 
     def test_an_error_of_0_has_its_place_below_all_others(self):
         axis = frontier_figures.ErrorAxis([0, 3e-4, 0.2])
@@ -173,7 +125,7 @@ class Frontier(unittest.TestCase):
         for part in (unfinished["picture"], *unfinished["hits"]):
             part["kernel"] = {"samples_ms": [], "summary": None}
         self.assertEqual(self.run_plots(self.put("a.json", interrupted))[0], 0)
-        text = "\n".join(self.texts("a-linear.svg"))
+        text = self.texts("a-linear.svg")
         self.assertIn("interrupted, not complete", text)
         self.assertIn("not timed: moller-trumbore", text)
 
@@ -191,7 +143,7 @@ class Frontier(unittest.TestCase):
         other["picture"].update(width=640, height=320)
         code, said = self.run_plots(self.put("a.json", result()), self.put("b.json", other))
         self.assertEqual(code, 0, said)
-        text = "\n".join(self.texts("a-hits.svg"))
+        text = self.texts("a-hits.svg")
         for part in ("Abacus 9000", "Slide rule", "640\u00d7320 pixels"):
             self.assertIn(part, text)
 

@@ -66,7 +66,9 @@ class PlotsTest(FilesTest):
             self.assertIn(part, said)
         self.assertFalse(os.path.exists(self.path("plots")) and self.names("plots"))
 
-    def texts(self, name):
+    def labels(self, name):
         tree = ElementTree.parse(self.path(os.path.join("plots", name)))
-        return "\n".join("".join(node.itertext()) for node in tree.iter()
-                         if node.tag.endswith("}text"))
+        return ["".join(node.itertext()) for node in tree.iter() if node.tag.endswith("}text")]
+
+    def texts(self, name):
+        return "\n".join(self.labels(name))
