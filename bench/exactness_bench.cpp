@@ -114,7 +114,7 @@ void measure(const std::string& mesh, const rays_of& r, std::vector<entry>& all,
 void run(const settings& o) {
   const runtime::device device = runtime::select_device(o.device);
   runtime::queue queue(device);
-  json report = head_of("facet-bench-exactness", origin_now(device));
+  json report = head_of("facet-bench-exactness", study::origin_now(device));
   report["settings"] = {{"repeats", o.repeat}, {"slices", o.slices}, {"flags", o.flags}};
   report["results"] = json::array();
   std::printf(

@@ -206,7 +206,7 @@ std::uint64_t growth_result::differing_hits() const {
 growth_result measure_growth(const runtime::queue& queue, const growth_settings& s,
                              const growth_watch& watch) {
   growth_result r;
-  r.from = origin_now(queue.get_device());
+  r.from = study::origin_now(queue.get_device());
   r.kernel_hash = study::fingerprint_of(runtime::expand(tracer::kernel_sources(), "trace.cl"));
   r.settings = s;
   const std::vector<ray> eye = primary_rays(s.width, s.height);

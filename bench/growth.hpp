@@ -74,7 +74,7 @@ struct growth_family {
 
 struct growth_result {
   bool complete = false;
-  origin from;
+  study::origin from;
   std::string kernel_hash;  ///< of trace.cl's expanded text
   growth_settings settings;
   std::vector<growth_family> families;

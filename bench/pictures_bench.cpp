@@ -79,7 +79,7 @@ json measure(const std::string& path, runtime::queue& queue, const settings& o) 
 void run(const settings& o) {
   const runtime::device device = runtime::select_device(o.device);
   runtime::queue queue(device);
-  json report = head_of("facet-bench-pictures", origin_now(device));
+  json report = head_of("facet-bench-pictures", study::origin_now(device));
   report["settings"] = {{"repeats", o.repeat}};
   report["results"] = json::array();
   std::printf(

@@ -75,7 +75,7 @@ void run(const settings& o) {
   const std::string peer_name = embree_version();
   if (peer_name.empty())
     std::printf("Built without Embree (libembree-dev): its figures are left out.\n");
-  json report = head_of("facet-bench-reference", origin_now());
+  json report = head_of("facet-bench-reference", study::origin_now());
   report["settings"] = {{"repeats", o.repeat}, {"compiler", __VERSION__}};
   report["peer"] = peer_of(peer_name, 1);
   report["results"] = json::array();

@@ -8,22 +8,9 @@
 
 namespace facet::bench {
 
-origin origin_now() { return {study::date(), study::cpu_name(), std::nullopt}; }
-
-origin origin_now(const runtime::device& d) {
-  origin from = origin_now();
-  from.device = study::facts_of(d);
-  return from;
-}
-
-nlohmann::ordered_json head_of(const std::string& format, const origin& from, int version) {
-  nlohmann::ordered_json j{{"format", format},
-                           {"version", version},
-                           {"date", from.date},
-                           {"facet", {{"version", study::version()}, {"commit", study::commit()}}}};
-  j["device"] = nullptr;
-  if (from.device) j["device"] = study::to_json(*from.device);
-  j["cpu"] = from.cpu;
+nlohmann::ordered_json head_of(const std::string& format, const study::origin& from, int version) {
+  nlohmann::ordered_json j{{"format", format}, {"version", version}};
+  j.update(study::to_json(from));
   return j;
 }
 

@@ -81,7 +81,7 @@ void run(const settings& o) {
                                               : tracer::geometry_kind::automatic;
   options.tree = o.tree == "none" ? tracer::tree_kind::none : tracer::tree_kind::levels;
   const std::string peer_name = embree_version();
-  json report = head_of("facet-bench-trace", origin_now(device));
+  json report = head_of("facet-bench-trace", study::origin_now(device));
   report["settings"] = {{"repeats", o.repeat}, {"tree", o.tree}, {"geometry", o.geometry}};
   report["peer"] = peer_of(peer_name, o.threads);
   report["results"] = json::array();

@@ -127,7 +127,7 @@ ray_set bounce_rays(const scene& s, const ray_set& eye, std::uint64_t seed, unsi
 double sideways_bound(const box3<double>& world, const tracer::ray& r) {
   if (world.empty()) return 0;
   const vec3d reach = abs(vec3d(origin_of(r))) + max(abs(world.lo), abs(world.hi));
-  return 64 * 0x1p-24 * std::max(std::max(reach.x, reach.y), reach.z);
+  return sideways_units * 0x1p-24 * std::max(std::max(reach.x, reach.y), reach.z);
 }
 
 hit_oracle::hit_oracle(const scene& s, const reference::tracer<double>& exact, unsigned threads,

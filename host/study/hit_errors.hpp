@@ -34,6 +34,7 @@ ray_set bounce_rays(const scene& s, const ray_set& eye, std::uint64_t seed, unsi
 /// E (cl/triangle.h). An instance's map rounds origin and direction by 4 u of the sum of their
 /// terms, at most E by axis, and the way back by a matrix that scales evenly adds up over three
 /// axes: 2 * 4 * 3 u E = 24 u E, with 16 u E to spare for the maps' own rounding to float.
+inline constexpr int sideways_units = 64;
 double sideways_bound(const box3<double>& world, const tracer::ray& r);
 
 struct hit_errors {

@@ -48,4 +48,12 @@ std::string date() {
   return text;
 }
 
+origin origin_now() { return {date(), version(), commit(), cpu_name(), std::nullopt}; }
+
+origin origin_now(const runtime::device& d) {
+  origin from = origin_now();
+  from.device = facts_of(d);
+  return from;
+}
+
 }  // namespace facet::study

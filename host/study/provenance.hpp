@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "runtime/device.hpp"
@@ -30,5 +31,14 @@ const char* commit();
 
 /// Now, in UTC: "2026-01-31T23:59:59Z".
 std::string date();
+
+/// All of this, of a result that is measured now.
+struct origin {
+  std::string date, version, commit;
+  std::string cpu;                     ///< that the host, and with it the references, run on
+  std::optional<device_facts> device;  ///< none where no OpenCL device takes part
+};
+origin origin_now(const runtime::device& d);
+origin origin_now();
 
 }  // namespace facet::study

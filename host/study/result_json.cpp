@@ -20,7 +20,7 @@ json to_json(const times& t) {
             {"most_ms", t.values.most}}}};
 }
 
-json to_json(const device_facts& d) {
+static json to_json(const device_facts& d) {
   return {{"name", d.name},
           {"platform", d.platform},
           {"driver", d.driver},
@@ -29,6 +29,13 @@ json to_json(const device_facts& d) {
           {"compute_units", d.compute_units},
           {"max_clock_mhz", d.max_clock_mhz},
           {"timer_ns", d.timer_ns}};
+}
+
+json to_json(const origin& from) {
+  return {{"date", from.date},
+          {"facet", {{"version", from.version}, {"commit", from.commit}}},
+          {"device", from.device ? to_json(*from.device) : json(nullptr)},
+          {"cpu", from.cpu}};
 }
 
 }  // namespace facet::study

@@ -12,6 +12,8 @@ namespace facet::study {
 nlohmann::ordered_json to_json(const interval& i);
 /// Every sample, and their summary: null without samples.
 nlohmann::ordered_json to_json(const times& t);
-nlohmann::ordered_json to_json(const device_facts& d);
+/// Date, Facet's version and commit, the device (null if none takes part) and the CPU, in this
+/// order.
+nlohmann::ordered_json to_json(const origin& from);
 
 }  // namespace facet::study

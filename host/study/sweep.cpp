@@ -240,11 +240,7 @@ void run_sweep(const runtime::queue& queue, const std::vector<experiment>& exper
                const tracer::progress& on_progress, const std::atomic<bool>* cancel) {
   forecast time(experiments.size() * (settings.shapes.size() + (settings.serial_repeats ? 1 : 0)));
   result = {};
-  result.device = facts_of(queue.get_device());
-  result.cpu = cpu_name();
-  result.version = version();
-  result.commit = commit();
-  result.date = date();
+  result.from = origin_now(queue.get_device());
   result.settings = settings;
   for (const experiment& e : experiments) {
     if (cancel && cancel->load()) return;

@@ -119,16 +119,12 @@ std::string to_json(const sweep_result& r) {
   for (const experiment_result& e : r.experiments) experiments.push_back(to_json(e));
   for (const omission& o : r.left_out)
     left_out.push_back({{"experiment", o.experiment}, {"reason", o.reason}});
-  return json_text({{"format", "facet-sweep"},
-                    {"version", 1},
-                    {"complete", r.complete},
-                    {"date", r.date},
-                    {"facet", {{"version", r.version}, {"commit", r.commit}}},
-                    {"device", to_json(r.device)},
-                    {"cpu", r.cpu},
-                    {"settings", to_json(r.settings)},
-                    {"experiments", std::move(experiments)},
-                    {"left_out", std::move(left_out)}});
+  json file{{"format", "facet-sweep"}, {"version", 1}, {"complete", r.complete}};
+  file.update(to_json(r.from));
+  file["settings"] = to_json(r.settings);
+  file["experiments"] = std::move(experiments);
+  file["left_out"] = std::move(left_out);
+  return json_text(file);
 }
 
 }  // namespace facet::study

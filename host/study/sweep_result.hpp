@@ -84,9 +84,7 @@ struct omission {
 
 struct sweep_result {
   bool complete = false;
-  device_facts device;
-  std::string cpu;  ///< that the serial reference ran on
-  std::string version, commit, date;
+  origin from;
   sweep_settings settings;
   std::vector<experiment_result> experiments;  ///< those begun
   std::vector<omission> left_out;              ///< for the caller to fill in

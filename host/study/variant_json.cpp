@@ -120,34 +120,30 @@ std::string to_json(const variants_result& r) {
   for (const std::uint32_t i : r.order) order.push_back(r.variants[i].of.name);
   for (const omitted_variant& o : r.left_out)
     left_out.push_back({{"variant", o.name}, {"reason", o.reason}});
-  return json_text(
-      {{"format", "facet-variants"},
-       {"version", 1},
-       {"complete", r.complete},
-       {"date", r.date},
-       {"facet", {{"version", r.version}, {"commit", r.commit}}},
-       {"device", to_json(r.device)},
-       {"cpu", r.cpu},
-       {"settings",
-        {{"repeats", r.settings.repeats},
-         {"warm_ups", 1},
-         {"seed", r.settings.seed},
-         {"bootstrap", {{"resamples", r.settings.resamples}, {"level", r.settings.level}}},
-         {"sideways_bound_in_u_reach", 64}}},
-       {"scene",
-        {{"name", r.scene_name},
-         {"hash", r.scene_hash},
-         {"triangles", r.triangles},
-         {"instances", r.instances}}},
-       {"picture",
-        {{"width", r.settings.width},
-         {"height", r.settings.height},
-         {"max_depth", r.max_depth},
-         {"samples", r.samples}}},
-       {"oracle_ms", r.oracle_ms},
-       {"variants", std::move(variants)},
-       {"left_out", std::move(left_out)},
-       {"order", std::move(order)}});
+  json file{{"format", "facet-variants"}, {"version", 1}, {"complete", r.complete}};
+  file.update(to_json(r.from));
+  file.update(
+      json{{"settings",
+            {{"repeats", r.settings.repeats},
+             {"warm_ups", 1},
+             {"seed", r.settings.seed},
+             {"bootstrap", {{"resamples", r.settings.resamples}, {"level", r.settings.level}}},
+             {"sideways_bound_in_u_reach", sideways_units}}},
+           {"scene",
+            {{"name", r.scene_name},
+             {"hash", r.scene_hash},
+             {"triangles", r.triangles},
+             {"instances", r.instances}}},
+           {"picture",
+            {{"width", r.settings.width},
+             {"height", r.settings.height},
+             {"max_depth", r.max_depth},
+             {"samples", r.samples}}},
+           {"oracle_ms", r.oracle_ms},
+           {"variants", std::move(variants)},
+           {"left_out", std::move(left_out)},
+           {"order", std::move(order)}});
+  return json_text(file);
 }
 
 }  // namespace facet::study

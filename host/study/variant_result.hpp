@@ -72,9 +72,7 @@ struct omitted_variant {
 
 struct variants_result {
   bool complete = false;
-  device_facts device;
-  std::string cpu;  ///< that the double reference ran on
-  std::string version, commit, date;
+  origin from;
   variant_settings settings;
   std::string scene_name, scene_hash;
   std::uint64_t triangles = 0, instances = 0;  ///< triangles: of all instances

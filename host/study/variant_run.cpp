@@ -215,11 +215,7 @@ void run_variants(const runtime::queue& queue, const scene& s,
                   const std::vector<listed_variant>& variants, const variant_settings& settings,
                   variants_result& result, const tracer::progress& on_progress,
                   const std::atomic<bool>* cancel) {
-  result.device = facts_of(queue.get_device());
-  result.cpu = cpu_name();
-  result.version = version();
-  result.commit = commit();
-  result.date = date();
+  result.from = origin_now(queue.get_device());
   result.settings = settings;
   result.scene_name = s.name;
   result.scene_hash = fingerprint_of(s);

@@ -146,6 +146,17 @@ bool has_device() {
   return found;
 }
 
+bool has_terminal() {
+  int ends[2];
+  if (::openpty(&ends[0], &ends[1], nullptr, nullptr, nullptr) != 0) {
+    MESSAGE("no pseudo-terminal (is /dev/pts mounted?): what a terminal shows is not tested");
+    return false;
+  }
+  ::close(ends[0]);
+  ::close(ends[1]);
+  return true;
+}
+
 bool is_sanitized() {
 #if defined(__SANITIZE_ADDRESS__)
   return true;

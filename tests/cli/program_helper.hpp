@@ -57,6 +57,8 @@ outcome run(const std::vector<std::string>& arguments, const surroundings& s = {
 surroundings without_devices();
 /// Is there a device to run on? (asked once)
 bool has_device();
+/// Whether a pseudo-terminal can be had: a bare chroot has no /dev/pts, and nothing to show there.
+bool has_terminal();
 /// Whether this test program is built with a sanitizer, which cannot live in little memory.
 bool is_sanitized();
 

@@ -1,7 +1,5 @@
 // Progress on a terminal, elsewhere, and not at all.
 #include <doctest/doctest.h>
-#include <pty.h>
-#include <unistd.h>
 
 #include <csignal>
 
@@ -11,18 +9,6 @@
 using namespace facet::test;
 
 namespace {
-
-/// Whether a pseudo-terminal can be had: a bare chroot has no /dev/pts, and nothing to show there.
-bool has_terminal() {
-  int ends[2];
-  if (::openpty(&ends[0], &ends[1], nullptr, nullptr, nullptr) != 0) {
-    MESSAGE("no pseudo-terminal (is /dev/pts mounted?): what a terminal shows is not tested");
-    return false;
-  }
-  ::close(ends[0]);
-  ::close(ends[1]);
-  return true;
-}
 
 /// A render that takes long enough for a bar; what it wrote to stderr until `sign` came, or all.
 std::string said(bool terminal, std::vector<std::string> more, const std::string& sign) {

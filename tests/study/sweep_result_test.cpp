@@ -72,7 +72,7 @@ TEST_CASE("a shape with another picture, or refused, is never among the best") {
 
 TEST_CASE("the file holds every sample, in order, and null for what has no value") {
   sweep_result r;
-  r.date = "2026-01-31T23:59:59Z";
+  r.from.date = "2026-01-31T23:59:59Z";
   r.settings.shapes = {{1, 1}, {2, 2}, {4, 4}};
   r.experiments = {three_shapes()};
   experiment_result& e = r.experiments[0];

@@ -69,7 +69,7 @@ TEST_CASE("each shape, the driver's and the serial reference are timed as often 
   CHECK(r.complete);
   CHECK(r.has_samples());
   CHECK(r.differences().empty());
-  CHECK(r.device.name == test::device().name());
+  CHECK(r.from.device->name == test::device().name());
   REQUIRE(r.experiments.size() == 2);
   for (const study::experiment_result& e : r.experiments) {
     CAPTURE(e.name);

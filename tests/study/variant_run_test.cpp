@@ -71,7 +71,7 @@ TEST_CASE("each variant is timed as often as asked, and held against the double 
   CHECK(r.complete);
   CHECK(r.has_findings());
   CHECK(r.broken_promises().empty());
-  CHECK(r.device.name == test::device().name());
+  CHECK(r.from.device->name == test::device().name());
   CHECK(r.scene_hash == study::fingerprint_of(mirror()));
   REQUIRE(r.variants.size() == 5);
   CHECK(r.order.size() == 5 * 3);
