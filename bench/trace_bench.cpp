@@ -9,6 +9,7 @@
 #include "bench/measure.hpp"
 #include "bench/result_file.hpp"
 #include "bench/rows.hpp"
+#include "reference/sah.hpp"
 #include "runtime/runtime.hpp"
 #include "study/statistics.hpp"
 #include "tracer/tracer.hpp"
@@ -20,7 +21,7 @@ using json = nlohmann::ordered_json;
 
 struct settings {
   std::vector<std::string> meshes{"terrain:1000", "soup:1000000"};
-  std::string device = "0", geometry = "auto", tree = "levels", json;
+  std::string device = "0", geometry = "auto", tree = "levels", layout = "auto", kernels, json;
   int repeat = 5;
   unsigned threads = std::thread::hardware_concurrency();
 };
@@ -72,6 +73,18 @@ json measure(const std::string& name, const char* kind, const std::vector<ray>& 
   return row;
 }
 
+/// A leaf holds no more triangles than either layout tests for the price of a node.
+tracer::given_tree sah_tree_of(const mesh& m) {
+  std::vector<box3f> boxes(m.triangle_count());
+  for (std::size_t t = 0; t < boxes.size(); ++t)
+    for (int corner = 0; corner < 3; ++corner) boxes[t].add(m.position(t, corner));
+  const reference::sah_tree tree = reference::build_sah(boxes, 8);
+  tracer::given_tree given;
+  for (const reference::sah_node& n : tree.nodes) given.nodes.push_back({n.first, n.count});
+  given.order = tree.order;
+  return given;
+}
+
 void run(const settings& o) {
   const runtime::device device = runtime::select_device(o.device);
   runtime::queue queue(device);
@@ -80,9 +93,14 @@ void run(const settings& o) {
                      : o.geometry == "buffer" ? tracer::geometry_kind::buffer
                                               : tracer::geometry_kind::automatic;
   options.tree = o.tree == "none" ? tracer::tree_kind::none : tracer::tree_kind::levels;
+  options.layout = o.layout == "wide"     ? tracer::layout_kind::wide
+                   : o.layout == "narrow" ? tracer::layout_kind::narrow
+                                          : tracer::layout_kind::automatic;
+  options.kernel_folder = o.kernels;
   const std::string peer_name = embree_version();
   json report = head_of("facet-bench-trace", study::origin_now(device));
-  report["settings"] = {{"repeats", o.repeat}, {"tree", o.tree}, {"geometry", o.geometry}};
+  report["settings"] = {
+      {"repeats", o.repeat}, {"tree", o.tree}, {"geometry", o.geometry}, {"layout", o.layout}};
   report["peer"] = peer_of(peer_name, o.threads);
   report["results"] = json::array();
   report["builds"] = json::array();
@@ -93,7 +111,9 @@ void run(const settings& o) {
   for (const std::string& path : o.meshes) {
     const std::string name = path.substr(path.find_last_of('/') + 1);
     const scene s = scene_of(load_workload(path));
-    tracer::device_scene ours(queue, s, options);
+    std::vector<tracer::given_tree> given;
+    if (o.tree == "sah") given.push_back(sah_tree_of(s.meshes[0]));
+    tracer::device_scene ours(queue, s, options, given);
     std::unique_ptr<embree_peer> peer;
     if (!peer_name.empty()) peer = std::make_unique<embree_peer>(s.meshes[0], o.threads);
 
@@ -112,6 +132,7 @@ void run(const settings& o) {
     report["builds"].push_back({{"mesh", name},
                                 {"triangles", s.triangle_count()},
                                 {"geometry", st.geometry},
+                                {"layout", st.layout},
                                 {"build_ms", st.build_ms},
                                 {"upload_ms", st.upload_ms},
                                 {"compile_ms", st.compile_ms},
@@ -134,9 +155,13 @@ void add_trace_row(CLI::App& app) {
   row->add_option("--geometry", o->geometry)
       ->check(CLI::IsMember({"auto", "image", "buffer"}))
       ->capture_default_str();
-  row->add_option("--tree", o->tree)
-      ->check(CLI::IsMember({"levels", "none"}))
+  row->add_option("--tree", o->tree, "sah: the serial reference's, made on the host")
+      ->check(CLI::IsMember({"levels", "sah", "none"}))
       ->capture_default_str();
+  row->add_option("--layout", o->layout, "of nodes and triangles")
+      ->check(CLI::IsMember({"auto", "narrow", "wide"}))
+      ->capture_default_str();
+  row->add_option("--kernels", o->kernels, "read cl/ from this folder");
   row->add_option("--repeat", o->repeat, "runs of each figure, alternated with the peer's")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();

@@ -20,7 +20,15 @@
 #ifndef FACET_BOX_H
 #define FACET_BOX_H
 
+#include "features.h"
 #include "vec.h"
+
+// A number of each of a node's children, four or in the wide layout eight.
+#ifdef FACET_WIDE
+typedef float8 Each;
+#else
+typedef float4 Each;
+#endif
 
 typedef struct {
   float3 inverse;
@@ -75,18 +83,24 @@ static inline Sides near_sides(const Slabs s) {
   return n;
 }
 
+static inline Each entry_of(Each face, float inverse, float offset) {
+  return fma(face, (Each)(inverse), (Each)(offset));
+}
+
 // The intervals of a node's children, cut to tmin and best: child c must be visited exactly
 // where near c <= far c. `faces` are the node's six sides in order.
-static inline void child_intervals(const Slabs s, const Sides side, __global const float4* faces,
-                                   float tmin, float best, float4* near, float4* far) {
-  const float4 nx = fma(faces[side.x], (float4)(s.inverse.x), (float4)(s.near_offset.x));
-  const float4 ny = fma(faces[2u + side.y], (float4)(s.inverse.y), (float4)(s.near_offset.y));
-  const float4 nz = fma(faces[4u + side.z], (float4)(s.inverse.z), (float4)(s.near_offset.z));
-  const float4 fx = fma(faces[1u - side.x], (float4)(s.inverse.x), (float4)(s.far_offset.x));
-  const float4 fy = fma(faces[3u - side.y], (float4)(s.inverse.y), (float4)(s.far_offset.y));
-  const float4 fz = fma(faces[5u - side.z], (float4)(s.inverse.z), (float4)(s.far_offset.z));
-  *near = cull_max(nz, cull_max(ny, cull_max(nx, (float4)(tmin))));
-  *far = cull_min(fz, cull_min(fy, cull_min(fx, (float4)(best))));
+static inline void child_intervals(const Slabs s, const Sides side, __global const Each* faces, float tmin,
+                                   float best, Each* near, Each* far) {
+  const Each nx = entry_of(faces[side.x], s.inverse.x, s.near_offset.x);
+  const Each ny = entry_of(faces[2u + side.y], s.inverse.y, s.near_offset.y);
+  const Each nz = entry_of(faces[4u + side.z], s.inverse.z, s.near_offset.z);
+  const Each fx = entry_of(faces[1u - side.x], s.inverse.x, s.far_offset.x);
+  const Each fy = entry_of(faces[3u - side.y], s.inverse.y, s.far_offset.y);
+  const Each fz = entry_of(faces[5u - side.z], s.inverse.z, s.far_offset.z);
+  const Each x = FACET_CULL_MAX(nx, (Each)(tmin)), a = FACET_CULL_MIN(fx, (Each)(best));
+  const Each y = FACET_CULL_MAX(ny, x), b = FACET_CULL_MIN(fy, a);
+  *near = FACET_CULL_MAX(nz, y);
+  *far = FACET_CULL_MIN(fz, b);
 }
 
 #endif

@@ -16,7 +16,23 @@ static inline float cull_max1(float a, float bound) { return FACET_CULL_MAX(a, b
 static inline float cull_min1(float a, float bound) { return FACET_CULL_MIN(a, bound); }
 static inline float3 cull_max3(float3 a, float3 bound) { return FACET_CULL_MAX(a, bound); }
 static inline float3 cull_min3(float3 a, float3 bound) { return FACET_CULL_MIN(a, bound); }
-static inline float4 cull_max(float4 a, float4 bound) { return FACET_CULL_MAX(a, bound); }
-static inline float4 cull_min(float4 a, float4 bound) { return FACET_CULL_MIN(a, bound); }
+
+// The lanes where a comparison of vectors holds, as bits: lane k is bit k. The portable form gathers
+// the lowest bits of eight bytes by a product: byte k's comes to bit 56 + k, and nothing carries.
+#ifdef __AVX__
+static inline uint lanes_of(int8 m) { return (uint)__builtin_ia32_movmskps256(as_float8(m)); }
+#else
+static inline uint lanes_of(int8 m) {
+  return (uint)((as_ulong(convert_char8(m)) & 0x0101010101010101ul) * 0x0102040810204080ul >> 56);
+}
+#endif
+
+// The lowest of the lanes, of which there is at least one.
+#ifdef __x86_64__
+static inline uint first_lane(uint lanes) { return (uint)__builtin_ctz(lanes); }
+#else
+static inline uint first_lane(uint lanes) { return 31u - clz(lanes & -lanes); }
+#endif
+static inline uint without_first(uint lanes) { return lanes & (lanes - 1u); }
 
 #endif

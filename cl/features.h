@@ -7,8 +7,9 @@
 //   FACET_NO_SPECULAR      no material with Ks
 // and, chosen rather than derived:
 //   FACET_GEOMETRY_IMAGE   positions and normals are read from image2d, not from buffers
+//   FACET_WIDE             nodes of eight children, triangles in blocks of eight (layout.h); from buffers
 //   FACET_TREE_NONE        brute force: every triangle is tested
-//   FACET_STACK=n          entries of the traversal stack: three for each level (traverse.h)
+//   FACET_STACK=n          entries of the traversal stack: three for each level, or seven (traverse.h)
 //   FACET_RAY_STACK=n      entries of the stack of pending rays: at least max_depth
 //   FACET_NESTING=n        transparent objects that may lie within one another (media.h)
 //   FACET_HARDWARE_MINMAX  see device.h
@@ -26,6 +27,13 @@
 
 #ifndef FACET_NESTING
 #define FACET_NESTING FACET_MOST_NESTING
+#endif
+
+// A node as a kernel's traversal reads it.
+#ifdef FACET_WIDE
+typedef WideNode SceneNode;
+#else
+typedef Node SceneNode;
 #endif
 
 #if !defined(FACET_NO_TRANSPARENCY) || !defined(FACET_NO_REFLECTION)

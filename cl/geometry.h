@@ -3,8 +3,7 @@
 #ifndef FACET_GEOMETRY_H
 #define FACET_GEOMETRY_H
 
-#include "features.h"
-#include "vec.h"
+#include "lanes.h"
 
 #ifdef FACET_GEOMETRY_IMAGE
 
@@ -24,11 +23,65 @@ static inline float3 read_corner(GEOMETRY g, uint index) { return g[index].xyz; 
 
 #endif
 
-// Corners 3 * slot to 3 * slot + 2; slots are triangles in leaf order, below 2^27.
-static inline void read_triangle(GEOMETRY g, uint slot, float3* p0, float3* p1, float3* p2) {
-  *p0 = read_corner(g, 3u * slot);
-  *p1 = read_corner(g, 3u * slot + 1u);
-  *p2 = read_corner(g, 3u * slot + 2u);
+// Texels 3 * slot to 3 * slot + 2; slots are triangles in leaf order, below 2^27.
+static inline void read_texels(GEOMETRY g, uint slot, float3* a, float3* b, float3* c) {
+  *a = read_corner(g, 3u * slot);
+  *b = read_corner(g, 3u * slot + 1u);
+  *c = read_corner(g, 3u * slot + 2u);
 }
+
+static inline void read_normals(GEOMETRY g, uint slot, float3* n0, float3* n1, float3* n2) {
+  read_texels(g, slot, n0, n1, n2);
+}
+
+#ifdef FACET_WIDE
+
+// What is tested at once: a block (layout.h: TriangleBlock), the three axes of three corners.
+typedef __global const float8* Triangles;
+
+static inline Triangles triangles_from(GEOMETRY g, uint slot) {
+  return (Triangles)((__global const TriangleBlock*)g + slot / FACET_BLOCK);
+}
+
+static inline void read_triangle(GEOMETRY g, uint slot, float3* p0, float3* p1, float3* p2) {
+  __global const float* x = (__global const float*)triangles_from(g, slot) + slot % FACET_BLOCK;
+  *p0 = (float3)(x[0], x[8], x[16]);
+  *p1 = (float3)(x[24], x[32], x[40]);
+  *p2 = (float3)(x[48], x[56], x[64]);
+}
+
+static inline Points points_of(Triangles t, int corner) {
+  Points p;
+  p.x = t[3 * corner];
+  p.y = t[3 * corner + 1];
+  p.z = t[3 * corner + 2];
+  return p;
+}
+
+#else
+
+typedef struct {
+  float3 corner[3];
+} Triangles;
+
+static inline void read_triangle(GEOMETRY g, uint slot, float3* p0, float3* p1, float3* p2) {
+  read_texels(g, slot, p0, p1, p2);
+}
+
+static inline Triangles triangles_from(GEOMETRY g, uint slot) {
+  Triangles t;
+  read_triangle(g, slot, &t.corner[0], &t.corner[1], &t.corner[2]);
+  return t;
+}
+
+static inline Points points_of(Triangles t, int corner) {
+  Points p;
+  p.x = t.corner[corner].x;
+  p.y = t.corner[corner].y;
+  p.z = t.corner[corner].z;
+  return p;
+}
+
+#endif
 
 #endif

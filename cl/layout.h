@@ -48,6 +48,25 @@ struct FACET_ALIGNED Node {
   uint spare[4];
 };
 
+// The wide layout, for CPUs: eight children to a node, triangles in blocks of eight.
+#define FACET_BLOCK 8u
+
+// As Node. A leaf is one block of triangles, or one instance.
+struct FACET_ALIGNED WideNode {
+  float x[2][8];  // lo, hi
+  float y[2][8];
+  float z[2][8];
+  uint child[8];
+  uint spare[8];
+};
+
+// The triangles of a leaf, a lane each: corner[k][axis][lane]. The triangle in lane i of block b is in
+// slot FACET_BLOCK * b + i. A lane without a triangle holds one that no ray meets, a segment
+// (host/tracer/wide_layout.hpp).
+struct FACET_ALIGNED TriangleBlock {
+  float corner[3][3][8];
+};
+
 // Where a triangle in leaf order comes from.
 struct FACET_ALIGNED TriangleInfo {
   uint triangle;  // its index in the mesh
@@ -65,7 +84,7 @@ struct FACET_ALIGNED Instance {
   uint root;    // of its mesh's tree
   float reach[3];  // largest |coordinate| of its mesh, by axis
   uint material;   // FACET_NONE: the mesh's own
-  uint first_triangle, triangle_count;
+  uint first_triangle, triangle_count;  // its slots; in the wide layout those of whole blocks
   uint spare[2];
 };
 
@@ -127,7 +146,7 @@ struct FACET_ALIGNED World {
   float reach[3];  // largest |coordinate| of the world's bounds, by axis
   uint root;       // of the tree over instances, or of the only mesh's tree
   uint instance_count;
-  uint triangle_count;
+  uint triangle_count;  // slots, as an instance's
   uint spare[2];
 };
 
@@ -187,7 +206,8 @@ struct FACET_ALIGNED Passage {
 
 #define FACET_NONE 0xffffffffu
 
-// A leaf as a child: count triangles (1 to 16) in leaf order from first (below 2^27).
+// A leaf as a child: count triangles (1 to 16) in leaf order from first (below 2^27). In the wide
+// layout first is a block, or an instance, and count 1.
 #define FACET_LEAF_BIT 0x80000000u
 #define FACET_LEAF(first, count) (FACET_LEAF_BIT | (((count) - 1u) << 27) | (first))
 #define FACET_LEAF_FIRST(child) ((child) & 0x07ffffffu)
@@ -197,6 +217,8 @@ struct FACET_ALIGNED Passage {
 typedef struct Box Box;
 typedef struct TreeNode TreeNode;
 typedef struct Node Node;
+typedef struct WideNode WideNode;
+typedef struct TriangleBlock TriangleBlock;
 typedef struct TriangleInfo TriangleInfo;
 typedef struct Instance Instance;
 typedef struct Material Material;
@@ -213,6 +235,8 @@ typedef struct Passage Passage;
 FACET_SIZE(Box, 32)
 FACET_SIZE(TreeNode, 48)
 FACET_SIZE(Node, 128)
+FACET_SIZE(WideNode, 256)
+FACET_SIZE(TriangleBlock, 288)
 FACET_SIZE(TriangleInfo, 16)
 FACET_SIZE(Instance, 160)
 FACET_SIZE(Material, 128)

@@ -10,7 +10,7 @@ static inline void put(__global float* to, float3 v) {
 }
 
 // The surface that each ray meets, and the rays that would follow it; directions have length 1.
-__kernel void probe_surfaces(__global const World* world, __global const Node* nodes,
+__kernel void probe_surfaces(__global const World* world, __global const SceneNode* nodes,
                              __global const Instance* instances, __global const TriangleInfo* infos,
                              __global const Material* materials, __global Faults* faults,
                              GEOMETRY positions, GEOMETRY normals, __global const Ray* rays,
@@ -56,7 +56,7 @@ __kernel void probe_surfaces(__global const World* world, __global const Node* n
 
 // What passes along each ray, as along the way to a point light at tmax; `medium` is what surrounds
 // the origins, FACET_NONE for nothing. Directions have length 1; tmin is not read.
-__kernel void probe_passages(__global const World* world, __global const Node* nodes,
+__kernel void probe_passages(__global const World* world, __global const SceneNode* nodes,
                              __global const Instance* instances, __global const TriangleInfo* infos,
                              __global const Material* materials, __global Faults* faults,
                              GEOMETRY positions, __global const Ray* rays, __global Passage* passages,

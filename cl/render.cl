@@ -1,7 +1,7 @@
 // A tile of a picture: one pixel a work-item, the mean of its samples.
 #include "states.h"
 
-__kernel void render(__global const World* world, __global const Node* nodes,
+__kernel void render(__global const World* world, __global const SceneNode* nodes,
                      __global const Instance* instances, __global const TriangleInfo* infos,
                      __global const Material* materials, __global Faults* faults,
                      GEOMETRY positions, GEOMETRY normals, __global const Light* lights,

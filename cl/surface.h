@@ -89,7 +89,7 @@ static inline Surface surface_at(const Scene* s, GEOMETRY positions, GEOMETRY no
   float3 shading = n;
 #ifndef FACET_NO_SMOOTH
   float3 n0, n1, n2;
-  read_triangle(normals, q->slot, &n0, &n1, &n2);
+  read_normals(normals, q->slot, &n0, &n1, &n2);
   shading = unit_or(normal_to_world(s, q->place, (n0 * w + n1 * q->u) + n2 * q->v), n);
 #endif
   f.shading = dot3(shading, d) > 0.0f ? -shading : shading;

@@ -11,7 +11,7 @@ static inline void write_hit(__global Hit* hits, __global uint* instances, size_
 #endif
 }
 
-__kernel void trace_closest(__global const World* world, __global const Node* nodes,
+__kernel void trace_closest(__global const World* world, __global const SceneNode* nodes,
                             __global const Instance* instances, __global const TriangleInfo* infos,
                             __global const Material* materials, __global Faults* faults, GEOMETRY positions,
                             __global const Ray* rays, __global Hit* hits, __global uint* hit_instances,
@@ -25,7 +25,7 @@ __kernel void trace_closest(__global const World* world, __global const Node* no
 }
 
 // Only whether something is met: triangle and instance 0 if so.
-__kernel void trace_any(__global const World* world, __global const Node* nodes,
+__kernel void trace_any(__global const World* world, __global const SceneNode* nodes,
                         __global const Instance* instances, __global const TriangleInfo* infos,
                         __global const Material* materials, __global Faults* faults, GEOMETRY positions,
                         __global const Ray* rays, __global Hit* hits, __global uint* hit_instances,

@@ -10,6 +10,7 @@
 #define FACET_TRIANGLE_H
 
 #include "box.h"
+#include "geometry.h"
 
 // A ray in one space, with all that the tests need of it.
 typedef struct {
@@ -54,53 +55,88 @@ static inline bool space_of(Space* s, float3 o, float3 d, float3 reach) {
   return true;
 }
 
-// A corner relative to the ray, sheared so that the ray is the z axis from the origin on.
-static inline float3 shear_corner(const Space* s, float3 corner) {
-  const float3 a = swapped(s->axis, corner - s->o);
-  return (float3)(a.x - s->shear.x * a.z, a.y - s->shear.y * a.z, s->unit * a.z);
+// Corners relative to the ray's origin, the main axis in z's place.
+static inline Points relative(const Space* s, Triangles t, int corner) {
+  Points a;
+#ifdef FACET_WIDE
+  const float3 o = swapped(s->axis, s->o);
+  a.x = t[3 * corner + (s->axis == 0u ? 2 : 0)] - o.x;
+  a.y = t[3 * corner + (s->axis == 1u ? 2 : 1)] - o.y;
+  a.z = t[3 * corner + (int)s->axis] - o.z;
+#else
+  const float3 p = swapped(s->axis, t.corner[corner] - s->o);
+  a.x = p.x;
+  a.y = p.y;
+  a.z = p.z;
+#endif
+  return a;
+}
+
+// The same, sheared so that the ray is the z axis from the origin on.
+static inline Points sheared(const Space* s, Triangles t, int corner) {
+  Points a = relative(s, t, corner);
+  a.x = a.x - s->shear.x * a.z;
+  a.y = a.y - s->shear.y * a.z;
+  a.z = s->unit * a.z;
+  return a;
 }
 
 // p.x * q.y - p.y * q.x by Kahan's method: within 2 u of it, so 0 only if it is 0 in the reals
 // (Jeannerod, Louvet, Muller, Mathematics of Computation 82, 2013), underflow apart.
-static inline float edge_function(float3 p, float3 q) {
-  const float b = p.y * q.x;
+static inline Real edge_function(Points p, Points q) {
+  const Real b = p.y * q.x;
   return fma(p.x, q.y, -b) + fma(-p.y, q.x, b);
 }
 
 // The same with rounded products: its sign is right or it is 0.
-static inline float rough_edge(float3 p, float3 q) { return p.x * q.y - p.y * q.x; }
+static inline Real rough_edge(Points p, Points q) { return p.x * q.y - p.y * q.x; }
+
+// Whether the ray passes all edges on one side, or through them.
+static inline Mask is_within(Real u, Real v, Real w) {
+  return ((u >= 0.0f) & (v >= 0.0f) & (w >= 0.0f)) | ((u <= 0.0f) & (v <= 0.0f) & (w <= 0.0f));
+}
 
 // The sign of an edge function with ties broken by moving the ray by (eps, eps^2) in the plane
 // (simulation of simplicity, Edelsbrunner and Muecke 1990): an edge belongs to exactly one of its
 // triangles.
-static inline float edge_sign(float e, float3 p, float3 q) {
-  if (e != 0.0f) return e;
-  const float along_x = p.y - q.y;
-  return along_x != 0.0f ? along_x : q.x - p.x;
+static inline Real edge_sign(Real e, Points p, Points q) {
+  const Real along_x = p.y - q.y, along_y = q.x - p.x;
+  const Real tie = along_x != 0.0f ? along_x : along_y;
+  return e != 0.0f ? e : tie;
 }
 
 typedef struct {
-  float t;
-  bool is_front;    // the ray enters through the side on which the corners turn counter-clockwise
-  bool is_counted;  // this triangle, not a neighbour, owns the edge or corner that is met
-} TriangleHit;
+  Real t;
+  Mask is_front;    // the ray enters through the side on which the corners turn counter-clockwise
+  Mask is_counted;  // this triangle, not a neighbour, owns the edge or corner that is met
+} TriangleHits;
+
+// Along one axis, where the ray enters, or leaves, the triangles' boxes.
+static inline Real crossing_of(Real lo, Real hi, float inverse, bool is_lower, float offset) {
+  return fma(is_lower ? lo : hi, in_all(inverse), in_all(offset));
+}
 
 // Holds t to the interval of the triangle's own box, cut with `outer`: so no node that leads to the
 // triangle can have been left out (box.h). False where the two have nothing in common. It is
 // hardly ever needed.
-static inline bool hold_to_boxes(const Space* s, float3 p0, float3 p1, float3 p2, Interval outer,
-                                 float* t) {
-  const Interval own =
-      box_interval(s->slabs, cull_min3(cull_min3(p0, p1), p2), cull_max3(cull_max3(p0, p1), p2));
-  const float near = cull_max1(outer.near, own.near), far = cull_min1(outer.far, own.far);
-  if (!(near <= far)) return false;
-  const float after = *t < near ? near : *t;
+static inline Mask hold_to_boxes(const Space* s, Triangles p, Interval outer, Real* t) {
+  const Points p0 = points_of(p, 0), p1 = points_of(p, 1), p2 = points_of(p, 2);
+  const Points lo = smallest_of(p0, p1, p2), hi = largest_of(p0, p1, p2);
+  const float3 d = s->slabs.inverse, n = s->slabs.near_offset, f = s->slabs.far_offset;
+  Real near = in_all(outer.near), far = in_all(outer.far);
+  near = larger_each(crossing_of(lo.x, hi.x, d.x, d.x > 0.0f, n.x), near);
+  near = larger_each(crossing_of(lo.y, hi.y, d.y, d.y > 0.0f, n.y), near);
+  near = larger_each(crossing_of(lo.z, hi.z, d.z, d.z > 0.0f, n.z), near);
+  far = smaller_each(crossing_of(lo.x, hi.x, d.x, !(d.x > 0.0f), f.x), far);
+  far = smaller_each(crossing_of(lo.y, hi.y, d.y, !(d.y > 0.0f), f.y), far);
+  far = smaller_each(crossing_of(lo.z, hi.z, d.z, !(d.z > 0.0f), f.z), far);
+  const Real after = *t < near ? near : *t;
   // One zero: that of a face may have either sign.
   *t = (after > far ? far : after) + 0.0f;
-  return true;
+  return near <= far;
 }
 
-// Whether the ray meets p0 p1 p2 with t in tmin..tmax; the edges belong to the triangle. t lies in
+// Which triangles the ray meets with t in tmin..tmax; the edges belong to the triangle. t lies in
 // the interval of the triangle's own box and in `outer`, that of its instance's box in the world.
 //
 // It does so by itself, unless an underflow or an instance's maps come between. With u, v, w as they
@@ -113,38 +149,42 @@ static inline bool hold_to_boxes(const Space* s, float3 p0, float3 p1, float3 p2
 // Nothing overflows: x and y are below 2^62, edge functions below 2^125, z at most 2. Edge
 // functions have lost no more than 2^-147 to underflow: with |det| >= 2^-120 that is below u E / 2, and
 // with |top| >= 2^-100 that of its products is below u |t|.
-static inline bool hit_triangle(const Space* s, float3 p0, float3 p1, float3 p2, Interval outer,
-                         float tmin, float tmax, bool count, TriangleHit* hit) {
-  const float3 a = shear_corner(s, p0), b = shear_corner(s, p1), c = shear_corner(s, p2);
+static inline Mask hit_triangles(const Space* s, Triangles p, Interval outer, float tmin, float tmax,
+                                 bool count, TriangleHits* hits) {
+  const Points a = sheared(s, p, 0), b = sheared(s, p, 1), c = sheared(s, p, 2);
   // Most triangles that are tested are passed by: these need no more than the signs.
-  const float ru = rough_edge(c, b), rv = rough_edge(a, c), rw = rough_edge(b, a);
-  if ((ru < 0.0f || rv < 0.0f || rw < 0.0f) && (ru > 0.0f || rv > 0.0f || rw > 0.0f)) return false;
-  const float u = edge_function(c, b), v = edge_function(a, c), w = edge_function(b, a);
-  if ((u < 0.0f || v < 0.0f || w < 0.0f) && (u > 0.0f || v > 0.0f || w > 0.0f)) return false;
-  const float det = (u + v) + w;
-  if (det == 0.0f) return false;
-  const float top = (u * a.z + v * b.z) + w * c.z;
-  float t = top / det * s->t_of_unit;
-  const bool is_sure = fabs(top) >= 0x1p-100f && fabs(det) >= 0x1p-120f && t >= outer.near &&
-                       t <= outer.far;
-  if (!is_sure && !hold_to_boxes(s, p0, p1, p2, outer, &t)) return false;
-  if (!(t >= tmin && t <= tmax)) return false;
-  hit->t = t;
-  if (count) {
-    const float su = edge_sign(u, c, b), sv = edge_sign(v, a, c), sw = edge_sign(w, b, a);
-    hit->is_counted = (su > 0.0f && sv > 0.0f && sw > 0.0f) || (su < 0.0f && sv < 0.0f && sw < 0.0f);
-    hit->is_front = (su > 0.0f) != s->is_turned;
+  const Mask near_by = is_within(rough_edge(c, b), rough_edge(a, c), rough_edge(b, a));
+  if (is_none(near_by)) return near_by;
+  const Real u = edge_function(c, b), v = edge_function(a, c), w = edge_function(b, a);
+  const Real det = (u + v) + w;
+  Mask met = is_within(u, v, w) & (det != 0.0f);
+  if (is_none(met)) return met;
+  const Real top = (u * a.z + v * b.z) + w * c.z;
+  Real t = top / det * s->t_of_unit;
+  const Mask is_sure = (fabs(top) >= 0x1p-100f) & (fabs(det) >= 0x1p-120f) & (t >= outer.near) &
+                       (t <= outer.far);
+  const Mask is_held = met & !is_sure;
+  if (!is_none(is_held)) {
+    Real held = t;
+    met &= hold_to_boxes(s, p, outer, &held) | !is_held;
+    t = is_held ? held : t;
   }
-  return true;
+  hits->t = t;
+  if (count) {
+    const Real su = edge_sign(u, c, b), sv = edge_sign(v, a, c), sw = edge_sign(w, b, a);
+    hits->is_counted = ((su > 0.0f) & (sv > 0.0f) & (sw > 0.0f)) | ((su < 0.0f) & (sv < 0.0f) & (sw < 0.0f));
+    hits->is_front = s->is_turned ? !(su > 0.0f) : su > 0.0f;
+  }
+  return met & (t >= tmin) & (t <= tmax);
 }
 
-// Where the ray meets a triangle that hit_triangle has accepted: the hit's u and v, the shares of p1
+// Where the ray meets a triangle that hit_triangles has accepted: the hit's u and v, the shares of p1
 // and p2. Computed anew for the one triangle that is left when a search has ended.
-static inline float2 shares_of(const Space* s, float3 p0, float3 p1, float3 p2) {
-  const float3 a = shear_corner(s, p0), b = shear_corner(s, p1), c = shear_corner(s, p2);
-  const float u = edge_function(c, b), v = edge_function(a, c), w = edge_function(b, a);
-  const float det = (u + v) + w;
-  return (float2)(v / det, w / det);
+static inline float2 shares_of(const Space* s, Triangles p, uint lane) {
+  const Points a = sheared(s, p, 0), b = sheared(s, p, 1), c = sheared(s, p, 2);
+  const Real u = edge_function(c, b), v = edge_function(a, c), w = edge_function(b, a);
+  const Real det = (u + v) + w;
+  return (float2)(in_lane(v / det, lane), in_lane(w / det, lane));
 }
 
 #endif

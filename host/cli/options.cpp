@@ -83,6 +83,12 @@ void add_kernels(CLI::App& app, tracer::options& target) {
                                      {"image", tracer::geometry_kind::image}},
                                     "Where the device reads vertices from (default auto: what was\n"
                                     "measured to be faster on this kind of device)");
+  add_choice<tracer::layout_kind>(app, "--layout", target.layout,
+                                  {{"auto", tracer::layout_kind::automatic},
+                                   {"narrow", tracer::layout_kind::narrow},
+                                   {"wide", tracer::layout_kind::wide}},
+                                  "Nodes of four children and single triangles, or eight of both\n"
+                                  "at a time (default auto: wide on CPUs, but for images)");
   app.add_option("--kernels", target.kernel_folder,
                  "Read the OpenCL C files from this folder, not from the program")
       ->type_name("DIR");

@@ -26,6 +26,7 @@ nlohmann::ordered_json to_json(const tracer::statistics& s) {
           {"work_group", {s.group_width, s.group_height}},
           {"tiles", s.tiles},
           {"geometry", s.geometry},
+          {"layout", s.layout},
           {"features", s.features},
           {"tree_depth", s.tree_depth},
           {"tree_nodes", s.tree_nodes},

@@ -6,31 +6,59 @@ namespace facet::study {
 namespace {
 
 const char* const moller_trumbore = R"(
-static inline bool hit_triangle(const Space* s, float3 p0, float3 p1, float3 p2, Interval outer,
-                                float tmin, float tmax, bool count, TriangleHit* hit) {
-  const float3 e1 = p1 - p0, e2 = p2 - p0, p = cross3(s->direction, e2), o = s->o - p0;
-  const float inverse = 1.0f / dot3(e1, p);
-  const float u = dot3(o, p) * inverse;
-  if (!(u >= 0.0f && u <= 1.0f)) return false;
-  const float3 q = cross3(o, e1);
-  const float v = dot3(s->direction, q) * inverse;
-  if (!(v >= 0.0f && u + v <= 1.0f)) return false;
-  const float t = dot3(e2, q) * inverse;
-  if (!(t >= tmin && t <= tmax)) return false;
-  hit->t = t;
-  hit->is_front = inverse > 0.0f;
-  hit->is_counted = true;
-  return true;
+static inline Real dot_each(Points a, Points b) { return (a.x * b.x + a.y * b.y) + a.z * b.z; }
+
+static inline Points cross_each(Points a, Points b) {
+  Points c;
+  c.x = a.y * b.z - a.z * b.y, c.y = a.z * b.x - a.x * b.z, c.z = a.x * b.y - a.y * b.x;
+  return c;
 }
 
-static inline float2 shares_of(const Space* s, float3 p0, float3 p1, float3 p2) {
-  const float3 e1 = p1 - p0, e2 = p2 - p0, p = cross3(s->direction, e2), o = s->o - p0;
-  const float inverse = 1.0f / dot3(e1, p);
-  return (float2)(dot3(o, p) * inverse, dot3(s->direction, cross3(o, e1)) * inverse);
+static inline Points less(Points a, Points b) {
+  Points c;
+  c.x = a.x - b.x, c.y = a.y - b.y, c.z = a.z - b.z;
+  return c;
+}
+
+static inline Points one_point(float3 a) {
+  Points c;
+  c.x = in_all(a.x), c.y = in_all(a.y), c.z = in_all(a.z);
+  return c;
+}
+
+static inline Mask hit_triangles(const Space* s, Triangles t, Interval outer, float tmin, float tmax,
+                                 bool count, TriangleHits* hits) {
+  const Points p0 = points_of(t, 0), d = one_point(s->direction);
+  const Points e1 = less(points_of(t, 1), p0), e2 = less(points_of(t, 2), p0);
+  const Points p = cross_each(d, e2), o = less(one_point(s->o), p0);
+  const Real inverse = 1.0f / dot_each(e1, p);
+  const Real u = dot_each(o, p) * inverse;
+  Mask met = (u >= 0.0f) & (u <= 1.0f);
+  if (is_none(met)) return met;
+  const Points q = cross_each(o, e1);
+  const Real v = dot_each(d, q) * inverse;
+  met &= (v >= 0.0f) & (u + v <= 1.0f);
+  if (is_none(met)) return met;
+  hits->t = dot_each(e2, q) * inverse;
+  hits->is_front = inverse > 0.0f;
+  hits->is_counted = met;
+  return met & (hits->t >= tmin) & (hits->t <= tmax);
+}
+
+static inline float2 shares_of(const Space* s, Triangles t, uint lane) {
+  const Points p0 = points_of(t, 0), d = one_point(s->direction);
+  const Points e1 = less(points_of(t, 1), p0), e2 = less(points_of(t, 2), p0);
+  const Points p = cross_each(d, e2), o = less(one_point(s->o), p0);
+  const Real inverse = 1.0f / dot_each(e1, p);
+  return (float2)(in_lane(dot_each(o, p) * inverse, lane),
+                  in_lane(dot_each(d, cross_each(o, e1)) * inverse, lane));
 }
 
 #endif
 )";
+
+const char* const end_of_shares =
+    "  return (float2)(in_lane(v / det, lane), in_lane(w / det, lane));\n}\n";
 
 }  // namespace
 
@@ -43,10 +71,10 @@ kernel_edits with_direction() {
 kernel_edits moller_trumbore_test() {
   return joined(
       {with_direction(),
-       {{"triangle.h", "static inline bool hit_triangle(", "static inline bool unused_test("},
+       {{"triangle.h", "static inline Mask hit_triangles(", "static inline Mask unused_test("},
         {"triangle.h", "static inline float2 shares_of(", "static inline float2 unused_shares("},
-        {"triangle.h", "  return (float2)(v / det, w / det);\n}\n\n#endif\n",
-         std::string("  return (float2)(v / det, w / det);\n}\n") + moller_trumbore}}});
+        {"triangle.h", std::string(end_of_shares) + "\n#endif\n",
+         std::string(end_of_shares) + moller_trumbore}}});
 }
 
 kernel_edits unpadded_slabs() {

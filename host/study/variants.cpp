@@ -6,14 +6,12 @@ namespace facet::study {
 namespace {
 
 kernel_edits unordered() {
-  return {{"traverse.h", "hit.t == q->t && q->slot != FACET_NONE && !is_before(s, place, slot, q)",
-           "hit.t >= q->t"}};
+  return {{"query.h",
+           "t >= q->t && (t > q->t || (q->slot != FACET_NONE && !is_before(s, place, slot, q)))",
+           "t >= q->t"}};
 }
 
-kernel_edits unheld() {
-  return {{"triangle.h", "if (!is_sure && !hold_to_boxes(s, p0, p1, p2, outer, &t)) return false;",
-           ""}};
-}
+kernel_edits unheld() { return {{"triangle.h", "if (!is_none(is_held))", "if (false)"}}; }
 
 kernel_edits unchecked() {
   return {{"triangle.h", "largest >= 8.673617379884035e-19f &&", "true ||"},
@@ -53,7 +51,7 @@ std::vector<variant> single_guards() {
           {"less the hold", "t is never held to the triangle's own interval", unheld()},
           {"always held",
            "t is held also where that is sure to change nothing",
-           {{"triangle.h", "if (!is_sure && !hold", "if (!hold"}}},
+           {{"triangle.h", "is_held = met & !is_sure;", "is_held = met;"}}},
           {"less exact edges", "edge functions are rounded", rounded_edges()},
           {"less the checks", "no ray is refused", unchecked()}};
 }

@@ -39,10 +39,11 @@ runtime::program compiled(const runtime::queue& q, const runtime::source_tree& k
 }
 
 std::string traversal_options(const features& f, std::uint32_t nesting, tree_kind tree,
-                              bool in_images, std::uint32_t traversal_stack,
+                              bool in_images, bool is_wide, std::uint32_t traversal_stack,
                               std::uint32_t ray_stack, const tuning& t) {
   std::string o = f.flags() + t.flags();
   if (in_images) o += " -DFACET_GEOMETRY_IMAGE";
+  if (is_wide) o += " -DFACET_WIDE";
   if (tree == tree_kind::none) o += " -DFACET_TREE_NONE";
   o += " -DFACET_STACK=" + std::to_string(step_up(traversal_stack, 32));
   o += " -DFACET_NESTING=" + std::to_string(nesting);

@@ -22,7 +22,7 @@ runtime::program compiled(const runtime::queue& q, const runtime::source_tree& k
 /// The options that trace.cl and render.cl are compiled with for this geometry.
 /// ray_stack: entries of the stack of pending rays, at least the depth of what is rendered.
 std::string traversal_options(const features& f, std::uint32_t nesting, tree_kind tree,
-                              bool in_images, std::uint32_t traversal_stack,
+                              bool in_images, bool is_wide, std::uint32_t traversal_stack,
                               std::uint32_t ray_stack, const tuning& t);
 
 }  // namespace facet::tracer

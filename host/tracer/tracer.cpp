@@ -5,6 +5,7 @@
 #include "scene/media.hpp"
 #include "tracer/pack.hpp"
 #include "tracer/state.hpp"
+#include "tracer/wide_geometry.hpp"
 
 namespace facet::tracer {
 namespace {
@@ -40,6 +41,15 @@ void apply(const kernel_edit& e, runtime::source_tree& kernels) {
   text.replace(at, e.from.size(), e.to);
 }
 
+bool is_wide(const options& o, bool in_images, const tuning& t) {
+  if (o.layout == layout_kind::wide && in_images)
+    throw runtime::exception(runtime::errc::invalid,
+                             "geometry in images was asked for in the wide layout, which is for "
+                             "buffers; use --geometry buffer, or the narrow layout");
+  return o.layout == layout_kind::wide ||
+         (o.layout == layout_kind::automatic && t.wide_layout && !in_images);
+}
+
 runtime::buffer<Light> light_buffer(const std::vector<Light>& lights) {
   return lights.empty() ? runtime::buffer<Light>(1)
                         : runtime::buffer<Light>(lights.data(), lights.size());
@@ -47,7 +57,8 @@ runtime::buffer<Light> light_buffer(const std::vector<Light>& lights) {
 
 }  // namespace
 
-device_scene::device_scene(runtime::queue queue, const scene& s, options o) {
+device_scene::device_scene(runtime::queue queue, const scene& s, options o,
+                           std::span<const given_tree> given) {
   tuning tuned = tuning_for(queue.get_device());
   tuned.more_flags = o.compiler_flags;
   const features used = o.all_features ? features::all() : features::of(s);
@@ -59,7 +70,10 @@ device_scene::device_scene(runtime::queue queue, const scene& s, options o) {
   packed_scene packed = pack(s, used.smooth);
   runtime::buffer<Light> lights = light_buffer(packed.lights);
   device_geometry geometry =
-      build_geometry(queue, kernels, std::move(packed), used, o.tree, in_images, tuned);
+      is_wide(o, in_images, tuned)
+          ? build_wide_geometry(queue, kernels, std::move(packed), used, o.tree, tuned, given)
+          : build_geometry(queue, kernels, std::move(packed), used, o.tree, in_images, tuned,
+                           given);
   state_ = std::make_unique<state>(
       state{queue, std::move(o), tuned, used, in_images, std::move(kernels), without_meshes(s),
             media_at(s, s.view.position), std::move(geometry), std::move(lights),
@@ -87,17 +101,18 @@ kernel_description device_scene::describe_render(std::uint32_t max_depth) {
 
 runtime::kernel device_scene::state::trace_kernel(bool any) {
   if (!trace_program)
-    trace_program = compiled(
-        queue, kernels, "trace.cl",
-        traversal_options(used, model.nesting, chosen.tree, in_images, geometry.stack, 0, tuned));
+    trace_program = compiled(queue, kernels, "trace.cl",
+                             traversal_options(used, model.nesting, chosen.tree, in_images,
+                                               geometry.is_wide, geometry.stack, 0, tuned));
   return trace_program->get_kernel(any ? "trace_any" : "trace_closest");
 }
 
 runtime::kernel device_scene::state::render_kernel(std::uint32_t max_depth) {
   if (!render_program || render_stack < max_depth) {
-    render_program = compiled(queue, kernels, render_file,
-                              traversal_options(used, model.nesting, chosen.tree, in_images,
-                                                geometry.stack, max_depth, tuned));
+    render_program =
+        compiled(queue, kernels, render_file,
+                 traversal_options(used, model.nesting, chosen.tree, in_images, geometry.is_wide,
+                                   geometry.stack, max_depth, tuned));
     render_stack = max_depth;
   }
   return render_program->get_kernel("render");
@@ -106,16 +121,20 @@ runtime::kernel device_scene::state::render_kernel(std::uint32_t max_depth) {
 runtime::kernel device_scene::state::probe_kernel(const char* name) {
   constexpr std::uint32_t one_bounce = 1;
   if (!probe_program)
-    probe_program = compiled(queue, kernels, "probe.cl",
-                             traversal_options(used, model.nesting, chosen.tree, in_images,
-                                               geometry.stack, one_bounce, tuned));
+    probe_program =
+        compiled(queue, kernels, "probe.cl",
+                 traversal_options(used, model.nesting, chosen.tree, in_images, geometry.is_wide,
+                                   geometry.stack, one_bounce, tuned));
   return probe_program->get_kernel(name);
 }
 
 std::uint32_t device_scene::state::set_geometry(runtime::handler& h) {
   std::uint32_t k = 0;
   h.set_arg(k++, runtime::accessor{geometry.world, h, runtime::read_only});
-  h.set_arg(k++, runtime::accessor{geometry.nodes, h, runtime::read_only});
+  if (geometry.is_wide)
+    h.set_arg(k++, runtime::accessor{geometry.wide_nodes, h, runtime::read_only});
+  else
+    h.set_arg(k++, runtime::accessor{geometry.nodes, h, runtime::read_only});
   h.set_arg(k++, runtime::accessor{geometry.instances, h, runtime::read_only});
   h.set_arg(k++, runtime::accessor{geometry.infos, h, runtime::read_only});
   h.set_arg(k++, runtime::accessor{geometry.materials, h, runtime::read_only});
@@ -157,6 +176,7 @@ void device_scene::state::describe(statistics& s) const {
   s.upload_ms = geometry.upload_ms;
   s.build_ms = geometry.build_ms;
   s.geometry = in_images ? "image" : "buffer";
+  s.layout = geometry.is_wide ? "wide" : "narrow";
   s.features = used.names();
   s.tree_depth = geometry.depth;
   s.tree_nodes = geometry.nodes_used;

@@ -18,6 +18,9 @@ namespace facet::tracer {
 
 enum class tree_kind { none, levels };
 enum class geometry_kind { automatic, buffer, image };
+/// How a kernel finds trees and triangles: four children to a node and one triangle at a time, for
+/// GPUs, or eight of both at a time, for CPUs. Hits are the same. Images are for `narrow`.
+enum class layout_kind { automatic, narrow, wide };
 
 /// A change of the kernels' text: `from`, which must stand in `file` exactly once, becomes `to`.
 struct kernel_edit {
@@ -27,6 +30,7 @@ struct kernel_edit {
 struct options {
   tree_kind tree = tree_kind::levels;
   geometry_kind geometry = geometry_kind::automatic;
+  layout_kind layout = layout_kind::automatic;
   std::uint32_t group_width = 0, group_height = 0;  ///< work-group; 0: the device's default
   bool driver_group = false;                        ///< the driver chooses the work-group instead
   std::uint32_t tile_width = 0, tile_height = 0;    ///< pixels a launch; 0: about 50 ms each
@@ -34,6 +38,18 @@ struct options {
   std::string kernel_folder;                        ///< read cl/ from here, not from the library
   std::vector<kernel_edit> edits;                   ///< how a variant differs, in order
   std::string compiler_flags;                       ///< added to those of every program
+};
+
+/// A binary tree over a mesh's triangles that the caller has made, in place of the device's. Only
+/// its shape counts: boxes are those of the mesh.
+struct given_tree {
+  /// A leaf holds `count` > 0 triangles from `first` on in `order`, the leaves one after the other;
+  /// an inner node (`count` 0) has its children at `first` and `first + 1`.
+  struct node {
+    std::uint32_t first, count;
+  };
+  std::vector<node> nodes;           ///< the root first
+  std::vector<std::uint32_t> order;  ///< each triangle of the mesh once
 };
 
 /// One ray of `trace`: 32 bytes, as in the file format of `facet trace`.
@@ -87,6 +103,7 @@ struct statistics {
   std::uint32_t group_width = 0, group_height = 0;  ///< 0 where the driver chose
   std::uint32_t tiles = 0;
   std::string geometry;  ///< "image" or "buffer", as chosen
+  std::string layout;    ///< "wide" or "narrow", as chosen
   std::string features;  ///< what the kernel was compiled with, comma-separated
   std::uint32_t tree_depth = 0;
   std::uint64_t tree_nodes = 0;
@@ -119,7 +136,10 @@ struct cancelled : std::runtime_error {
 /// refuses (a work-group too large, memory that does not fit, a compile error), with the figures.
 class device_scene {
  public:
-  device_scene(runtime::queue queue, const scene& s, options o = {});
+  /// `given`: trees of the first meshes; those of the rest, and of instances, are the device's.
+  /// Throws runtime::exception (invalid) if one is not a tree over its mesh.
+  device_scene(runtime::queue queue, const scene& s, options o = {},
+               std::span<const given_tree> given = {});
   ~device_scene();
   device_scene(device_scene&&) noexcept;
   device_scene& operator=(device_scene&&) noexcept;

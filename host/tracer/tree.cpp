@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "tracer/given_tree.hpp"
 #include "tracer/kernels.hpp"
 #include "tracer/launch.hpp"
 #include "tracer/levels.hpp"
@@ -93,6 +94,13 @@ class geometry_builder {
     return levels_.build(on_device, std::uint32_t(boxes.size()));
   }
 
+  static binary_tree from(const given_tree& given, std::span<const texel> corners) {
+    const host_binary_tree t = binary_of(given, corners);
+    return {runtime::buffer<TreeNode>(t.nodes.data(), t.nodes.size()),
+            runtime::buffer<std::uint32_t>(t.order.data(), t.order.size()),
+            std::uint32_t(t.order.size()), t.root, t.depth};
+  }
+
   /// Writes the tree's nodes from node_offset on; returns how its root is named as a child.
   std::uint32_t emit(binary_tree& tree, runtime::buffer<Node>& nodes, std::uint32_t leaf_size,
                      std::uint32_t node_offset, std::uint32_t slot_offset) {
@@ -157,7 +165,7 @@ Box box_of(const Instance& i) {
 
 device_geometry build_geometry(runtime::queue& q, const runtime::source_tree& kernels,
                                packed_scene packed, const features& f, tree_kind kind,
-                               bool in_images, const tuning& t) {
+                               bool in_images, const tuning& t, std::span<const given_tree> given) {
   const std::size_t triangles = packed.world.triangle_count;
   const bool smooth = f.smooth;
   std::uint32_t largest = 0;
@@ -171,6 +179,7 @@ device_geometry build_geometry(runtime::queue& q, const runtime::source_tree& ke
   const std::size_t instances = packed.instances.size();
   device_geometry g{runtime::buffer<World>(1),
                     runtime::buffer<Node>(std::max<std::size_t>(1, triangles + instances)),
+                    runtime::buffer<WideNode>(1),
                     runtime::buffer<Instance>(std::max<std::size_t>(1, instances)),
                     runtime::buffer<TriangleInfo>(std::max<std::size_t>(1, triangles)),
                     runtime::buffer<Material>(packed.materials.data(), packed.materials.size()),
@@ -199,7 +208,10 @@ device_geometry build_geometry(runtime::queue& q, const runtime::source_tree& ke
     if (kind == tree_kind::none) {
       order = identity_order(m.triangle_count);
     } else {
-      binary_tree tree = build.over_triangles(corners, m.triangle_count);
+      binary_tree tree =
+          k < given.size()
+              ? build.from(given[k], std::span<const texel>(packed.corners).subspan(first, size))
+              : build.over_triangles(corners, m.triangle_count);
       roots[k] = build.emit(tree, g.nodes, t.leaf_size, m.first_triangle, m.first_triangle);
       depths[k] = tree.depth;
       order = tree.order;
@@ -238,7 +250,7 @@ device_geometry build_geometry(runtime::queue& q, const runtime::source_tree& ke
     placed = std::move(sorted);
     g.depth = top.depth + mesh_depth;
   }
-  // cl/traverse.h: three entries a level of either tree, and one where an instance is entered.
+  // cl/search_narrow.h: three entries a level of either tree, and one where an instance is entered.
   g.stack = 3 * g.depth + (f.instances ? 1 : 0);
   if (!placed.empty()) g.instances = runtime::buffer<Instance>(placed.data(), placed.size());
   g.world = runtime::buffer<World>(&packed.world, 1);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "runtime/runtime.hpp"
 #include "tracer/features.hpp"
@@ -15,12 +16,15 @@ namespace facet::tracer {
 /// What cl/traverse.h reads, in the order of a kernel's first arguments.
 struct device_geometry {
   runtime::buffer<World> world;
-  runtime::buffer<Node> nodes;
-  runtime::buffer<Instance> instances;  ///< in the order of the top tree's leaves
-  runtime::buffer<TriangleInfo> infos;  ///< in leaf order
+  runtime::buffer<Node> nodes;           ///< of the narrow layout, 1 in the wide one
+  runtime::buffer<WideNode> wide_nodes;  ///< the other way round
+  runtime::buffer<Instance> instances;   ///< in the order of the top tree's leaves
+  runtime::buffer<TriangleInfo> infos;   ///< in leaf order
   runtime::buffer<Material> materials;
-  runtime::buffer<texel> corners, normals;  ///< in leaf order; empty where images hold them
+  /// In leaf order; empty where images hold them. In the wide layout corners are TriangleBlocks.
+  runtime::buffer<texel> corners, normals;
   std::optional<runtime::image2d> corner_image, normal_image;
+  bool is_wide = false;
 
   std::uint32_t stack = 1;       ///< entries that traversal may need (cl/features.h: FACET_STACK)
   std::uint32_t depth = 0;       ///< deepest way from the top's root to a leaf
@@ -34,6 +38,7 @@ struct device_geometry {
 /// (memory_allocation) before anything is allocated if the device cannot hold it.
 device_geometry build_geometry(runtime::queue& q, const runtime::source_tree& kernels,
                                packed_scene packed, const features& f, tree_kind tree,
-                               bool in_images, const tuning& t);
+                               bool in_images, const tuning& t,
+                               std::span<const given_tree> given = {});
 
 }  // namespace facet::tracer

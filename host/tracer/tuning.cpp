@@ -20,6 +20,7 @@ tuning tuning_for(const runtime::device& d) {
   } else {
     // A few tiles for each core: PoCL runs a tile on one core from start to end.
     t.sort_tiles = 4 * d.max_compute_units();
+    t.wide_layout = true;
   }
   return t;
 }

@@ -16,6 +16,7 @@ struct tuning {
   std::uint32_t sort_tiles = 64;          ///< tiles a radix pass is cut into, at most
   std::uint32_t sort_tile_least = 4096;   ///< keys a tile holds at least
   bool image_geometry = false;            ///< what --geometry auto means
+  bool wide_layout = false;               ///< what layout_kind::automatic means, but for images
   bool hardware_minmax = false;           ///< cl/device.h
   bool correctly_rounded = false;         ///< the device can be asked for exact divide and sqrt
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Compiles every kernel, with every set of feature flags that a scene can ask for, by clang for
-# SPIR, NVPTX and AMDGCN: devices that the test machine may not have. The flags are read from
+# SPIR, NVPTX and AMDGCN: devices that the test machine may not have; the wide layout, which is for CPUs,
+# for SPIR and for x86-64 with AVX-512. The flags are read from
 # cl/features.h, so that a new feature is covered when it is named there.
 # Flags decide what is compiled, targets how: all sets become code for SPIR; for the GPUs those with no
 # flag, one, all, or all but one, and the other sets are checked without generating code.
@@ -12,7 +13,7 @@ command -v "$clang" >/dev/null || { echo "SKIPPED: no $clang (Debian package cla
 
 mapfile -t derived < <(grep -oE 'FACET_NO_[A-Z]+' "$cl/features.h" | sort -u)
 chosen=(FACET_GEOMETRY_IMAGE FACET_TREE_NONE)
-for flag in "${chosen[@]}"; do
+for flag in "${chosen[@]}" FACET_WIDE; do
   grep -q "$flag" "$cl/features.h" || { echo "cl/features.h does not name $flag"; exit 1; }
 done
 flags=("${derived[@]}" "${chosen[@]}")
@@ -42,6 +43,17 @@ for target in spir64-unknown-unknown nvptx64-nvidia-nvcl amdgcn-amd-amdhsa; do
     echo "$target code $kernel"
   done
 done > "$jobs"
+for ((set = 0; set < 1 << ${#derived[@]}; ++set)); do
+  options=" -DFACET_WIDE"
+  for ((i = 0; i < ${#derived[@]}; ++i)); do
+    (( set >> i & 1 )) && options+=" -D${derived[i]}"
+  done
+  for target in spir64-unknown-unknown x86_64-unknown-linux-gnu; do
+    for kernel in render.cl trace.cl probe.cl "trace.cl -DFACET_TREE_NONE"; do
+      echo "$target code $kernel$options"
+    done
+  done
+done >> "$jobs"
 
 compile() {
   local clang=$1 cl=$2 target=$3 as=$4 kernel=$5
@@ -49,6 +61,7 @@ compile() {
   local emit=(-S)
   case $target in
     spir64*) emit=(-emit-llvm -c) ;;
+    x86_64*) emit=(-march=skylake-avx512 -S) ;;
     amdgcn*) emit=(-mcpu=gfx900 -nogpulib -c) ;;
   esac
   [[ $as == code ]] || emit=(-fsyntax-only -nogpulib)
@@ -58,4 +71,4 @@ compile() {
 }
 export -f compile
 xargs -P "$(nproc)" -a "$jobs" -I{} bash -c "compile '$clang' '$cl' {}"
-echo "$(wc -l < "$jobs") compilations: every kernel, ${#flags[@]} flags, 3 targets"
+echo "$(wc -l < "$jobs") compilations: every kernel, ${#flags[@]} flags, 3 targets; the wide layout, 2 targets"

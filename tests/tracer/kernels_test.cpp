@@ -42,16 +42,18 @@ TEST_CASE("the library holds every file of cl/, and a folder gives the same") {
 
 TEST_CASE("options name what is left out and what was chosen; stacks grow in steps") {
   const features none{false, false, false, false, false};
-  const std::string o = traversal_options(none, 3, tree_kind::none, true, 33, 5, tuning{});
+  const std::string o = traversal_options(none, 3, tree_kind::none, true, false, 33, 5, tuning{});
   CHECK(o.find("-DFACET_NO_TRANSPARENCY") != std::string::npos);
   CHECK(o.find("-DFACET_TREE_NONE") != std::string::npos);
   CHECK(o.find("-DFACET_GEOMETRY_IMAGE") != std::string::npos);
+  CHECK(o.find("-DFACET_WIDE") == std::string::npos);
   CHECK(o.find("-DFACET_STACK=64") != std::string::npos);
   CHECK(o.find("-DFACET_RAY_STACK=8") != std::string::npos);
   CHECK(o.find("-DFACET_NESTING=3") != std::string::npos);
   const std::string all =
-      traversal_options(features::all(), 1, tree_kind::levels, false, 1, 9, tuning{});
+      traversal_options(features::all(), 1, tree_kind::levels, false, true, 1, 9, tuning{});
   CHECK(all.find("FACET_NO_") == std::string::npos);
+  CHECK(all.find("-DFACET_WIDE") != std::string::npos);
   CHECK(all.find("-DFACET_STACK=32") != std::string::npos);
   CHECK(all.find("-DFACET_RAY_STACK=16") != std::string::npos);
 }

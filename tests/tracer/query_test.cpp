@@ -13,6 +13,7 @@ using namespace facet;
 using tracer::device_scene;
 using tracer::geometry_kind;
 using tracer::hit;
+using tracer::layout_kind;
 using tracer::options;
 using tracer::ray;
 using tracer::tree_kind;
@@ -34,11 +35,14 @@ bool same_bits(const hit& a, const reference::hit<float>& b) {
 std::vector<options> every_way() {
   std::vector<options> ways;
   for (tree_kind t : {tree_kind::levels, tree_kind::none})
-    for (geometry_kind g : {geometry_kind::buffer, geometry_kind::image})
+    for (const auto& [g, layout] : {std::pair(geometry_kind::buffer, layout_kind::wide),
+                                    std::pair(geometry_kind::buffer, layout_kind::narrow),
+                                    std::pair(geometry_kind::image, layout_kind::automatic)})
       for (bool all : {false, true}) {
         options o;
         o.tree = t;
         o.geometry = g;
+        o.layout = layout;
         o.all_features = all;
         ways.push_back(o);
       }
@@ -67,6 +71,7 @@ void check_hits(const scene& s, const std::vector<ray>& rays) {
     }
     CAPTURE(int(o.tree));
     CAPTURE(int(o.geometry));
+    CAPTURE(int(o.layout));
     CAPTURE(o.all_features);
     CHECK(differing == 0);
     CHECK(any_differing == 0);
@@ -89,20 +94,23 @@ TEST_CASE("a closed smooth mesh gives the reference's bits, from inside and outs
       test::random_rays(4000, 3));
 }
 
-TEST_CASE("meshes of 1 to 9 triangles, at every size around a leaf") {
-  for (std::uint32_t n = 1; n <= 9; ++n) {
+TEST_CASE("meshes of few triangles, at every size around a leaf of either layout") {
+  for (std::uint32_t n : {1u, 2u, 3u, 4u, 5u, 6u, 7u, 8u, 9u, 15u, 16u, 17u, 65u}) {
     CAPTURE(n);
     mesh m = test::random_soup(n, n);
     for (vec3f& p : m.positions) p = p * 2.0f;
     const scene s = test::one_mesh(m);
-    device_scene on_device(test::queue(), s);
     const reference::tracer<float> serial(s);
     const auto rays = test::random_rays(500, n);
-    const auto hits = on_device.trace(rays);
-    std::size_t differing = 0;
-    for (std::size_t i = 0; i < rays.size(); ++i)
-      differing += !same_bits(hits[i], serial.closest_brute(to_reference(rays[i])));
-    CHECK(differing == 0);
+    for (const layout_kind layout : {layout_kind::narrow, layout_kind::wide}) {
+      options o;
+      o.layout = layout;
+      const auto hits = device_scene(test::queue(), s, o).trace(rays);
+      std::size_t differing = 0;
+      for (std::size_t i = 0; i < rays.size(); ++i)
+        differing += !same_bits(hits[i], serial.closest_brute(to_reference(rays[i])));
+      CHECK(differing == 0);
+    }
   }
 }
 
@@ -184,6 +192,14 @@ TEST_CASE("rays that cannot be used meet nothing") {
                               {{0, 0, 0}, 0, {0, 0, INFINITY}, INFINITY},
                               {{0, 0, 0}, 0, {0, 0, 1e-30f}, INFINITY}};
   for (const hit& h : on_device.trace(rays)) CHECK(h.triangle == tracer::miss);
+}
+
+TEST_CASE("the wide layout is for buffers: with images it is refused") {
+  options o;
+  o.layout = layout_kind::wide;
+  o.geometry = geometry_kind::image;
+  CHECK_THROWS_AS(device_scene(test::queue(), test::one_mesh(test::random_soup(3, 1)), o),
+                  runtime::exception);
 }
 
 TEST_CASE("no rays give no hits, and statistics say what ran") {

@@ -16,17 +16,24 @@ mistake moller_trumbore() {
 }
 
 mistake determinant_epsilon() {
-  return of(
-      "determinant-epsilon", "triangles with |det| < 1e-5 count as parallel",
-      {{"triangle.h", "if (det == 0.0f) return false;", "if (fabs(det) < 1e-5f) return false;"}});
+  return of("determinant-epsilon", "triangles with |det| < 1e-5 count as parallel",
+            {{"triangle.h", "(det != 0.0f)", "(fabs(det) >= 1e-5f)"}});
 }
 
 mistake world_plane() {
-  return of("world-plane", "t comes from a plane equation about the world's origin",
-            joined({with_direction(),
-                    {{"triangle.h", "  float t = top / det * s->t_of_unit;",
-                      "  const float3 n = cross3(p1 - p0, p2 - p0);\n"
-                      "  float t = (dot3(n, p0) - dot3(n, s->o)) / dot3(n, s->direction);"}}}));
+  return of(
+      "world-plane", "t comes from a plane equation about the world's origin",
+      joined({with_direction(),
+              {{"triangle.h", "  Real t = top / det * s->t_of_unit;",
+                "  const Points p0 = points_of(p, 0), p1 = points_of(p, 1), p2 = points_of(p, 2);\n"
+                "  const Real ax = p1.x - p0.x, ay = p1.y - p0.y, az = p1.z - p0.z;\n"
+                "  const Real bx = p2.x - p0.x, by = p2.y - p0.y, bz = p2.z - p0.z;\n"
+                "  const Real nx = ay * bz - az * by, ny = az * bx - ax * bz, nz = ax * by - ay * "
+                "bx;\n"
+                "  const float3 o = s->o, d = s->direction;\n"
+                "  Real t = (((nx * p0.x + ny * p0.y) + nz * p0.z) -\n"
+                "            ((nx * o.x + ny * o.y) + nz * o.z)) /\n"
+                "           ((nx * d.x + ny * d.y) + nz * d.z);"}}}));
 }
 
 mistake contraction() {
@@ -49,18 +56,18 @@ mistake unchecked_direction() {
 
 mistake no_tie_break() {
   return of("no-tie-break", "of equal distances the first one met wins",
-            {{"traverse.h", "!is_before(s, place, slot, q)", "true"}});
+            {{"query.h", "!is_before(s, place, slot, q)", "true"}});
 }
 
 mistake truncated_nodes() {
   return of("truncated-nodes", "nodes keep 8 bits of a coordinate, cut off",
-            {{"tree.cl", "  nodes[node_offset + i] = out;",
-              "  for (uint k = 0u; k < 8u; ++k) {\n"
-              "    out.x[k / 4][k % 4] = as_float(as_uint(out.x[k / 4][k % 4]) & 0xffff8000u);\n"
-              "    out.y[k / 4][k % 4] = as_float(as_uint(out.y[k / 4][k % 4]) & 0xffff8000u);\n"
-              "    out.z[k / 4][k % 4] = as_float(as_uint(out.z[k / 4][k % 4]) & 0xffff8000u);\n"
-              "  }\n"
-              "  nodes[node_offset + i] = out;"}});
+            {{"box.h", "  return fma(face, (Each)(inverse), (Each)(offset));",
+              "#ifdef FACET_WIDE\n"
+              "  face = as_float8(as_uint8(face) & 0xffff8000u);\n"
+              "#else\n"
+              "  face = as_float4(as_uint4(face) & 0xffff8000u);\n"
+              "#endif\n"
+              "  return fma(face, (Each)(inverse), (Each)(offset));"}});
 }
 
 mistake chained_ties() {
@@ -73,16 +80,16 @@ mistake kept_bad_vertices() {
 }
 
 mistake short_leaves() {
-  return of("short-leaves", "a leaf's last triangle is left out",
-            {{"traverse.h", "for (uint k = 0; k < count; ++k)",
-              "for (uint k = 0; k + 1u < count; ++k)"}});
+  return of(
+      "short-leaves", "a leaf's first triangle is left out",
+      {{"search_narrow.h", "for (uint k = 0; k < count; ++k)", "for (uint k = 1; k < count; ++k)"},
+       {"lanes.h", "return lanes_of(m);", "return lanes_of(m) & 0xfeu;"}});
 }
 
 mistake open_points() {
-  return of(
-      "open-points", "a determinant of 0 is a hit at the corner's distance",
-      {{"triangle.h", "if (det == 0.0f) return false;", ""},
-       {"triangle.h", "float t = top / det *", "float t = (det == 0.0f ? a.z : top / det) *"}});
+  return of("open-points", "a determinant of 0 is a hit at the corner's distance",
+            {{"triangle.h", " & (det != 0.0f);", ";"},
+             {"triangle.h", "Real t = top / det *", "Real t = (det == 0.0f ? a.z : top / det) *"}});
 }
 
 mistake constant_offset() {
@@ -105,7 +112,7 @@ mistake unchecked_refraction() {
 
 mistake reversed_media() {
   return of("reversed-media", "entering a medium counts as leaving it",
-            {{"traverse.h", "is_front ? q->t_end - t : -(q->t_end - t)",
+            {{"query.h", "is_front ? q->t_end - t : -(q->t_end - t)",
               "is_front ? -(q->t_end - t) : q->t_end - t"}});
 }
 
@@ -119,26 +126,29 @@ mistake unchecked_normals() {
 mistake wrapped_offsets() {
   return of("wrapped-offsets",
             "byte offsets of corners wrap: at 2^19, where small meshes show it, in place of 2^31",
-            {{"geometry.h", "return g[index].xyz;", "return g[index & 0x7fffu].xyz;"}});
+            {{"geometry.h", "return g[index].xyz;", "return g[index & 0x7fffu].xyz;"},
+             {"geometry.h", "+ slot / FACET_BLOCK)", "+ slot / FACET_BLOCK % 0x71cu)"}});
 }
 
 mistake exclusive_edges() {
   return of(
       "exclusive-edges", "a ray through an edge meets neither of its triangles",
       {{"triangle.h",
-        "if ((u < 0.0f || v < 0.0f || w < 0.0f) && (u > 0.0f || v > 0.0f || w > 0.0f))",
-        "if ((u <= 0.0f || v <= 0.0f || w <= 0.0f) && (u >= 0.0f || v >= 0.0f || w >= 0.0f))"}});
+        "((u >= 0.0f) & (v >= 0.0f) & (w >= 0.0f)) | ((u <= 0.0f) & (v <= 0.0f) & (w <= 0.0f))",
+        "((u > 0.0f) & (v > 0.0f) & (w > 0.0f)) | ((u < 0.0f) & (v < 0.0f) & (w < 0.0f))"}});
 }
 
 mistake short_stack() {
   return of(
       "short-stack", "what does not fit on a stack of 4 is left out",
-      {{"traverse.h", "if (b != FACET_ABSENT) stack", "if (b != FACET_ABSENT && top < 4) stack"}});
+      {{"search_narrow.h", "if (b != FACET_ABSENT) stack",
+        "if (b != FACET_ABSENT && top < 4) stack"},
+       {"search_wide.h", "int k = (*top)++;", "if (*top >= 4) continue;\n    int k = (*top)++;"}});
 }
 
 mistake inclusive_edges() {
   return of("inclusive-edges", "an edge is crossed in both of its triangles",
-            {{"traverse.h", "if (hit.is_counted) add_crossing(", "add_crossing("}});
+            {{"query.h", "if (is_counted) add_crossing(", "add_crossing("}});
 }
 
 }  // namespace facet::study

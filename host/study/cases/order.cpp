@@ -11,6 +11,7 @@ namespace facet::study {
 namespace {
 
 using tracer::geometry_kind;
+using tracer::layout_kind;
 using tracer::tree_kind;
 
 struct way {
@@ -18,7 +19,12 @@ struct way {
   tracer::options options;
 };
 
-/// Trees, where geometry lies, three work-groups, features left out or not.
+/// The layout that the device does not choose by itself.
+layout_kind other_layout(const lab& l) {
+  return l.queue.get_device().is_gpu() ? layout_kind::wide : layout_kind::narrow;
+}
+
+/// Trees, how and where geometry lies, three work-groups, features left out or not.
 std::vector<way> ways(const lab& l, bool with_brute_force) {
   std::vector<way> all;
   const auto add = [&](std::string name, tree_kind tree, geometry_kind geometry, std::uint32_t w,
@@ -32,15 +38,19 @@ std::vector<way> ways(const lab& l, bool with_brute_force) {
     all.push_back({std::move(name), std::move(o)});
   };
   add("levels, buffer, 64", tree_kind::levels, geometry_kind::buffer, 0, 0, false);
+  add("levels, buffer, the other layout", tree_kind::levels, geometry_kind::buffer, 0, 0, false);
+  all.back().options.layout = other_layout(l);
   add("levels, image, 64", tree_kind::levels, geometry_kind::image, 0, 0, false);
   add("levels, buffer, 1", tree_kind::levels, geometry_kind::buffer, 1, 1, false);
   add("levels, buffer, 16x16", tree_kind::levels, geometry_kind::buffer, 16, 16, false);
   add("levels, buffer, all features", tree_kind::levels, geometry_kind::buffer, 0, 0, true);
   // As triangle.h says, that is sure to change nothing where it is left out.
   add("levels, buffer, t always held", tree_kind::levels, geometry_kind::buffer, 0, 0, false);
-  all.back().options.edits.push_back({"triangle.h", "if (!is_sure && !hold", "if (!hold"});
+  all.back().options.edits.push_back({"triangle.h", "is_held = met & !is_sure;", "is_held = met;"});
   if (with_brute_force) {
     add("none, buffer, 64", tree_kind::none, geometry_kind::buffer, 0, 0, false);
+    add("none, buffer, the other layout", tree_kind::none, geometry_kind::buffer, 0, 0, false);
+    all.back().options.layout = other_layout(l);
     add("none, image, 32", tree_kind::none, geometry_kind::image, 32, 1, true);
   }
   return all;

@@ -1,0 +1,24 @@
+// Every triangle is tested: no tree.
+#ifndef FACET_SEARCH_ALL_H
+#define FACET_SEARCH_ALL_H
+
+#include "query.h"
+
+static inline void search(const Scene* s, GEOMETRY positions, float3 o, float3 d, float tmin, uint mode,
+                          Space* space, Query* q) {
+  Interval outer = {-INFINITY, INFINITY};
+#ifdef FACET_NO_INSTANCES
+  for (uint slot = 0; slot < s->triangle_count; slot += FACET_LANES)
+    if (meet_triangles(s, positions, space, 0u, outer, slot, tmin, mode, q)) return;
+#else
+  const Slabs world = space->slabs;
+  for (uint place = 0; place < s->instance_count; ++place) {
+    if (!enter_instance(s, place, o, d, world, &outer, space)) continue;
+    const uint first = s->instances[place].first_triangle;
+    for (uint k = 0; k < s->instances[place].triangle_count; k += FACET_LANES)
+      if (meet_triangles(s, positions, space, place, outer, first + k, tmin, mode, q)) return;
+  }
+#endif
+}
+
+#endif

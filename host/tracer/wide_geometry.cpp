@@ -1,0 +1,211 @@
+#include "tracer/wide_geometry.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "tracer/given_tree.hpp"
+#include "tracer/levels.hpp"
+#include "tracer/morton.hpp"
+#include "tracer/wide_layout.hpp"
+
+namespace facet::tracer {
+namespace {
+
+using clock = std::chrono::steady_clock;
+
+double milliseconds_since(clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(clock::now() - start).count();
+}
+
+/// What the device keeps, as it grows mesh by mesh.
+struct arrays {
+  std::vector<WideNode> nodes;
+  std::vector<TriangleBlock> blocks;
+  std::vector<TriangleInfo> infos;  ///< by slot
+  std::vector<texel> normals;       ///< three a slot
+
+  std::uint32_t slots() const { return std::uint32_t(infos.size()); }
+};
+
+class binary_builder {
+ public:
+  binary_builder(runtime::queue& q, const runtime::source_tree& kernels, const tuning& t)
+      : morton_(q, kernels, t), levels_(q, kernels, t) {}
+
+  double compile_ms() const { return morton_.compile_ms() + levels_.compile_ms(); }
+
+  host_binary_tree over_triangles(std::span<const texel> corners) {
+    const auto count = std::uint32_t(corners.size() / 3);
+    runtime::buffer<texel> on_device(corners);
+    runtime::buffer<Box> boxes(count);
+    morton_.triangle_boxes(on_device, boxes, count);
+    return read(levels_.build(boxes, count));
+  }
+
+  host_binary_tree over_boxes(const std::vector<Box>& boxes) {
+    runtime::buffer<Box> on_device(boxes.data(), boxes.size());
+    return read(levels_.build(on_device, std::uint32_t(boxes.size())));
+  }
+
+ private:
+  static host_binary_tree read(const binary_tree& t) {
+    const runtime::host_accessor nodes{t.nodes, runtime::read_only};
+    const runtime::host_accessor order{t.order, runtime::read_only};
+    return {{nodes.begin(), nodes.begin() + std::ptrdiff_t(2 * std::size_t(t.count) - 1)},
+            {order.begin(), order.begin() + std::ptrdiff_t(t.count)},
+            t.root,
+            t.depth};
+  }
+
+  morton morton_;
+  levels_builder levels_;
+};
+
+/// The mesh's own order, in whole blocks.
+std::vector<std::uint32_t> blocks_in_order(std::uint32_t count) {
+  const std::uint32_t whole = (count + FACET_BLOCK - 1) / FACET_BLOCK * FACET_BLOCK;
+  std::vector<std::uint32_t> order(whole, FACET_NONE);
+  std::iota(order.begin(), order.begin() + std::ptrdiff_t(count), 0u);
+  return order;
+}
+
+/// A lane without a triangle has what the first of its block has, as it repeats a corner of that.
+void append_triangles(const packed_scene& from, const packed_mesh& m,
+                      const std::vector<std::uint32_t>& order, bool smooth, arrays& to) {
+  const std::size_t first = m.first_triangle, count = m.triangle_count;
+  append_blocks(order, std::span(from.corners).subspan(3 * first, 3 * count), to.blocks);
+  for (std::size_t slot = 0; slot < order.size(); ++slot) {
+    const std::uint32_t there =
+        order[slot] == FACET_NONE ? order[slot - slot % FACET_BLOCK] : order[slot];
+    to.infos.push_back({there, from.triangle_materials[first + there], {}});
+    if (!smooth) continue;
+    const auto normals = from.normals.begin() + std::ptrdiff_t(3 * (first + there));
+    to.normals.insert(to.normals.end(), normals, normals + 3);
+  }
+}
+
+template <class T>
+runtime::buffer<T> uploaded(const std::vector<T>& from) {
+  return from.empty() ? runtime::buffer<T>(1) : runtime::buffer<T>(from.data(), from.size());
+}
+
+template <class T>
+std::uint64_t bytes_of(const std::vector<T>& of) {
+  return of.size() * sizeof(T);
+}
+
+void check_memory(const runtime::device& d, std::uint64_t triangles, std::uint64_t bytes) {
+  if (bytes > d.global_mem_size())
+    throw runtime::exception(
+        runtime::errc::memory_allocation,
+        "the scene's " + std::to_string(triangles) + " triangles need " +
+            std::to_string(bytes >> 20) + " MiB on the device, and " + d.name() + " has " +
+            std::to_string(d.global_mem_size() >> 20) +
+            " MiB; use fewer triangles, instances instead of copies, or a larger device");
+}
+
+Box box_of(const Instance& i) {
+  Box b{};
+  std::copy(std::begin(i.lo), std::end(i.lo), b.lo);
+  std::copy(std::begin(i.hi), std::end(i.hi), b.hi);
+  return b;
+}
+
+}  // namespace
+
+device_geometry build_wide_geometry(runtime::queue& q, const runtime::source_tree& kernels,
+                                    packed_scene packed, const features& f, tree_kind kind,
+                                    const tuning& t, std::span<const given_tree> given) {
+  const auto start_build = clock::now();
+  binary_builder build(q, kernels, t);
+  arrays to;
+  std::uint32_t depth = 0, binary_depth = 0;
+  std::uint64_t binary_nodes = 0;
+  std::vector<Instance>& placed = packed.instances;
+  for (std::size_t k = 0; k < packed.meshes.size(); ++k) {
+    const packed_mesh& m = packed.meshes[k];
+    if (m.triangle_count == 0) continue;
+    const std::uint32_t first_slot = to.slots();
+    std::uint32_t root = FACET_NONE;
+    if (kind == tree_kind::none) {
+      append_triangles(packed, m, blocks_in_order(m.triangle_count), f.smooth, to);
+    } else {
+      const auto corners =
+          std::span<const texel>(packed.corners)
+              .subspan(3 * std::size_t(m.first_triangle), 3 * std::size_t(m.triangle_count));
+      const host_binary_tree binary =
+          k < given.size() ? binary_of(given[k], corners) : build.over_triangles(corners);
+      const wide_tree tree = widened(binary.nodes, binary.root, m.triangle_count, FACET_BLOCK,
+                                     std::uint32_t(to.nodes.size()), first_slot / FACET_BLOCK);
+      append_triangles(packed, m, tree.order, f.smooth, to);
+      to.nodes.insert(to.nodes.end(), tree.nodes.begin(), tree.nodes.end());
+      root = tree.root;
+      depth = std::max(depth, tree.depth);
+      binary_depth = std::max(binary_depth, binary.depth);
+      binary_nodes += binary.nodes.size();
+    }
+    for (std::size_t i = 0; i < placed.size(); ++i) {
+      if (packed.instance_meshes[i] != k) continue;
+      placed[i].root = root;
+      placed[i].first_triangle = first_slot;
+      placed[i].triangle_count = to.slots() - first_slot;
+    }
+  }
+  if (!f.instances) {
+    packed.world.root = placed.empty() ? FACET_NONE : placed[0].root;
+  } else if (kind != tree_kind::none && !placed.empty()) {
+    std::vector<Box> boxes;
+    boxes.reserve(placed.size());
+    for (const Instance& i : placed) boxes.push_back(box_of(i));
+    const host_binary_tree binary = build.over_boxes(boxes);
+    const wide_tree top = widened(binary.nodes, binary.root, std::uint32_t(placed.size()), 1,
+                                  std::uint32_t(to.nodes.size()), 0);
+    std::vector<Instance> sorted;
+    sorted.reserve(placed.size());
+    for (const std::uint32_t i : top.order) sorted.push_back(placed[i]);
+    placed = std::move(sorted);
+    to.nodes.insert(to.nodes.end(), top.nodes.begin(), top.nodes.end());
+    packed.world.root = top.root;
+    depth += top.depth;
+    binary_depth += binary.depth;
+    binary_nodes += binary.nodes.size();
+  }
+  const std::uint64_t triangles = packed.world.triangle_count;
+  packed.world.triangle_count = to.slots();
+  const std::uint64_t bytes = bytes_of(to.nodes) + bytes_of(to.blocks) + bytes_of(to.infos) +
+                              bytes_of(to.normals) + bytes_of(placed) + bytes_of(packed.materials);
+  check_memory(q.get_device(), triangles, bytes);
+  const double build_ms = milliseconds_since(start_build);
+
+  const auto start_upload = clock::now();
+  // As texels, which is what a kernel's parameter counts in.
+  const auto* corners = reinterpret_cast<const texel*>(to.blocks.data());
+  device_geometry g{runtime::buffer<World>(&packed.world, 1),
+                    runtime::buffer<Node>(1),
+                    uploaded(to.nodes),
+                    uploaded(placed),
+                    uploaded(to.infos),
+                    runtime::buffer<Material>(packed.materials.data(), packed.materials.size()),
+                    to.blocks.empty()
+                        ? runtime::buffer<texel>(1)
+                        : runtime::buffer<texel>(corners, bytes_of(to.blocks) / sizeof(texel)),
+                    uploaded(to.normals),
+                    std::nullopt,
+                    std::nullopt};
+  q.wait_and_throw();
+  g.is_wide = true;
+  g.depth = binary_depth;
+  // cl/search_wide.h: seven entries a level of either tree, and one where an instance is entered.
+  g.stack = 7 * depth + (f.instances ? 1 : 0);
+  g.nodes_used = binary_nodes;
+  g.bytes = bytes;
+  g.build_ms = build_ms;
+  g.upload_ms = milliseconds_since(start_upload);
+  g.compile_ms = build.compile_ms();
+  return g;
+}
+
+}  // namespace facet::tracer

@@ -1,0 +1,16 @@
+// A whole scene's geometry in the wide layout.
+#pragma once
+
+#include <span>
+
+#include "tracer/tree.hpp"
+
+namespace facet::tracer {
+
+/// As build_geometry (tree.hpp), in buffers and in the wide layout: the device builds the binary
+/// trees, the host folds them (wide_layout.hpp).
+device_geometry build_wide_geometry(runtime::queue& q, const runtime::source_tree& kernels,
+                                    packed_scene packed, const features& f, tree_kind kind,
+                                    const tuning& t, std::span<const given_tree> given);
+
+}  // namespace facet::tracer
