@@ -32,16 +32,6 @@ std::uint64_t peak_bytes(std::uint64_t triangles, std::uint64_t largest_mesh, bo
   return kept + uploaded + scratch + (in_images ? triangles * (corners + normals) : 0);
 }
 
-void check_memory(const runtime::device& d, std::uint64_t triangles, std::uint64_t peak) {
-  if (peak > d.global_mem_size())
-    throw runtime::exception(
-        runtime::errc::memory_allocation,
-        "the scene's " + std::to_string(triangles) + " triangles need about " +
-            std::to_string(peak >> 20) + " MiB on the device while their tree is built, and " +
-            d.name() + " has " + std::to_string(d.global_mem_size() >> 20) +
-            " MiB; use fewer triangles, instances instead of copies, or a larger device");
-}
-
 /// An image of `texels` in rows of image_width, filled from a buffer of whole rows.
 runtime::image2d image_of(runtime::queue& q, runtime::buffer<texel>& from) {
   const std::size_t rows = from.size() / image_width;
@@ -162,6 +152,16 @@ Box box_of(const Instance& i) {
 }
 
 }  // namespace
+
+void check_memory(const runtime::device& d, std::uint64_t triangles, std::uint64_t peak) {
+  if (peak > d.global_mem_size())
+    throw runtime::exception(
+        runtime::errc::memory_allocation,
+        "the scene's " + std::to_string(triangles) + " triangles need about " +
+            std::to_string(peak >> 20) + " MiB on the device while their tree is built, and " +
+            d.name() + " has " + std::to_string(d.global_mem_size() >> 20) +
+            " MiB; use fewer triangles, instances instead of copies, or a larger device");
+}
 
 device_geometry build_geometry(runtime::queue& q, const runtime::source_tree& kernels,
                                packed_scene packed, const features& f, tree_kind kind,

@@ -33,6 +33,10 @@ struct device_geometry {
   double compile_ms = 0, upload_ms = 0, build_ms = 0;
 };
 
+/// Throws runtime::exception (memory_allocation) if `peak` bytes, which building the trees of that
+/// many triangles takes, are more than the device has.
+void check_memory(const runtime::device& d, std::uint64_t triangles, std::uint64_t peak);
+
 /// Uploads the packed scene, builds its trees (unless tree_kind::none) and puts all into leaf
 /// order. With f.instances off the scene's one mesh is the root. Throws runtime::exception
 /// (memory_allocation) before anything is allocated if the device cannot hold it.

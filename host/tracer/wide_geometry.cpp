@@ -97,14 +97,10 @@ std::uint64_t bytes_of(const std::vector<T>& of) {
   return of.size() * sizeof(T);
 }
 
-void check_memory(const runtime::device& d, std::uint64_t triangles, std::uint64_t bytes) {
-  if (bytes > d.global_mem_size())
-    throw runtime::exception(
-        runtime::errc::memory_allocation,
-        "the scene's " + std::to_string(triangles) + " triangles need " +
-            std::to_string(bytes >> 20) + " MiB on the device, and " + d.name() + " has " +
-            std::to_string(d.global_mem_size() >> 20) +
-            " MiB; use fewer triangles, instances instead of copies, or a larger device");
+/// Bytes that building one mesh's binary tree takes: its corners, boxes, codes and order with their
+/// sorting copies, tree nodes, subtree ends, level lists.
+std::uint64_t scratch_bytes(std::uint64_t triangles) {
+  return triangles * (3 * sizeof(texel) + sizeof(Box) + 2 * sizeof(TreeNode) + 48);
 }
 
 Box box_of(const Instance& i) {
@@ -119,6 +115,11 @@ Box box_of(const Instance& i) {
 device_geometry build_wide_geometry(runtime::queue& q, const runtime::source_tree& kernels,
                                     packed_scene packed, const features& f, tree_kind kind,
                                     const tuning& t, std::span<const given_tree> given) {
+  std::uint32_t largest = 0;
+  for (const packed_mesh& m : packed.meshes) largest = std::max(largest, m.triangle_count);
+  const std::uint64_t triangles = packed.world.triangle_count;
+  check_memory(q.get_device(), triangles, scratch_bytes(largest));
+
   const auto start_build = clock::now();
   binary_builder build(q, kernels, t);
   arrays to;
@@ -173,7 +174,6 @@ device_geometry build_wide_geometry(runtime::queue& q, const runtime::source_tre
     binary_depth += binary.depth;
     binary_nodes += binary.nodes.size();
   }
-  const std::uint64_t triangles = packed.world.triangle_count;
   packed.world.triangle_count = to.slots();
   const std::uint64_t bytes = bytes_of(to.nodes) + bytes_of(to.blocks) + bytes_of(to.infos) +
                               bytes_of(to.normals) + bytes_of(placed) + bytes_of(packed.materials);

@@ -84,22 +84,22 @@ TEST_CASE("a figure beyond the budget ends its series with a reason, the tree's 
   }
 }
 
-// PoCL takes its device's memory from POCL_MEMORY_LIMIT, in GiB; 4 million triangles need more.
+// PoCL takes its device's memory from POCL_MEMORY_LIMIT, in GiB; 6 million triangles need more.
 TEST_CASE("a mesh that does not fit the device ends its series with the reason") {
   const surroundings small{{"POCL_MEMORY_LIMIT=1"}, 0, false};
   if (is_without_devices() || is_sanitized()) return;
   const temporary_folder folder;
   const outcome o = growth(
       folder,
-      {"--mesh", "soup", "--triangles", "10", "4e6", "--budget", "1e-9", "--device", "pthread"},
+      {"--mesh", "soup", "--triangles", "10", "6e6", "--budget", "1e-9", "--device", "pthread"},
       small);
   if (o.code == 1 && contains(o.err, "pthread")) return;  // no PoCL here
   CAPTURE(o.err);
   REQUIRE(o.code == 0);
   const json tree = result_in(folder)["families"][0]["series"][0];
   CHECK(tree["points"].size() == 1);
-  CHECK(tree["ended"]["triangles"] == 4000000);
-  CHECK(contains(tree["ended"]["reason"].get<std::string>(), "4000000 triangles need about "));
+  CHECK(tree["ended"]["triangles"] == 6000000);
+  CHECK(contains(tree["ended"]["reason"].get<std::string>(), "6000000 triangles need about "));
   CHECK(contains(o.out, "MiB; use fewer triangles"));
 }
 

@@ -126,9 +126,8 @@ TEST_CASE("a hole in the kernel shows as errors, in hits and in the picture") {
   listed_variant& holes = list.emplace_back(list[0]);
   holes.name = "holes", holes.is_exact = false;
   // Every fourth triangle is never met.
-  holes.options.edits = {
-      {"query.h", "  q->t = t;",
-       "  if (s->infos[slot].triangle % 4u == 3u) return false;\n  q->t = t;"}};
+  holes.options.edits = {{"query.h", "  q->t = t;",
+                          "  if (s->infos[slot].triangle % 4u == 3u) return false;\n  q->t = t;"}};
   scene s = mirror();
   s.view.position = {0.1, 40, 0.2};
   const auto r = measured(list, s);
