@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 #include <string>
+#include <vector>
 
 #include "runtime/runtime.hpp"
 
@@ -16,6 +17,12 @@ inline runtime::device device() {
 inline runtime::queue& queue() {
   static runtime::queue q{device()};
   return q;
+}
+
+template <class T>
+std::vector<T> content(const runtime::buffer<T>& b) {
+  const runtime::host_accessor read{b, runtime::read_only};
+  return {read.begin(), read.end()};
 }
 
 }  // namespace facet::test

@@ -9,9 +9,11 @@
 #include "tracer/device_helper.hpp"
 #include "tracer/kernels.hpp"
 #include "tracer/scenes_helper.hpp"
+#include "tracer/tree_walk_helper.hpp"
 
 using namespace facet;
 using namespace facet::tracer;
+using test::content;
 
 namespace {
 
@@ -20,50 +22,6 @@ device_geometry geometry_of(const scene& s, tree_kind kind, bool in_images = fal
   return build_geometry(test::queue(), kernel_sources(), pack(s, f.smooth), f, kind, in_images,
                         tuning_for(test::device()));
 }
-
-template <class T>
-std::vector<T> content(const runtime::buffer<T>& b) {
-  const runtime::host_accessor read{b, runtime::read_only};
-  return {read.begin(), read.end()};
-}
-
-bool holds(const Node& n, std::uint32_t child, const texel& p) {
-  return n.x[0][child] <= p[0] && p[0] <= n.x[1][child] && n.y[0][child] <= p[1] &&
-         p[1] <= n.y[1][child] && n.z[0][child] <= p[2] && p[2] <= n.z[1][child];
-}
-
-/// Walks a mesh's tree; gives the slots that its leaves cover and the longest way down.
-struct walk {
-  const std::vector<Node>& nodes;
-  const std::vector<texel>& corners;
-  std::multiset<std::uint32_t> slots = {};
-  std::uint32_t deepest = 0, escaped = 0, visited = 0;
-
-  /// `way`: the nodes and children that led here; each must hold what is below.
-  void down(std::uint32_t child, std::vector<std::pair<std::uint32_t, std::uint32_t>> way) {
-    REQUIRE(++visited < 1'000'000);
-    deepest = std::max(deepest, std::uint32_t(way.size()));
-    if (child & FACET_LEAF_BIT) {
-      for (std::uint32_t k = 0; k < FACET_LEAF_COUNT(child); ++k) {
-        const std::uint32_t slot = FACET_LEAF_FIRST(child) + k;
-        slots.insert(slot);
-        for (const auto& [node, at] : way)
-          for (std::size_t c = 0; c < 3; ++c)
-            escaped += !holds(nodes[node], at, corners[3 * slot + c]);
-      }
-      return;
-    }
-    for (std::uint32_t c = 0; c < 4; ++c) {
-      if (nodes[child].child[c] == FACET_NONE) {
-        CHECK(nodes[child].x[0][c] > nodes[child].x[1][c]);
-        continue;
-      }
-      auto further = way;
-      further.emplace_back(child, c);
-      down(nodes[child].child[c], further);
-    }
-  }
-};
 
 }  // namespace
 
@@ -74,11 +32,23 @@ TEST_CASE("each triangle is in one leaf, every node holds what is below it, the 
     const device_geometry g = geometry_of(s, tree_kind::levels);
     const auto nodes = content(g.nodes);
     const auto corners = content(g.corners);
-    walk w{nodes, corners};
-    w.down(content(g.world)[0].root, {});
-    CHECK(w.escaped == 0);
-    CHECK(w.slots.size() == n);
-    CHECK(std::set<std::uint32_t>(w.slots.begin(), w.slots.end()).size() == n);
+    std::multiset<std::uint32_t> slots;
+    std::uint32_t escaped = 0;
+    test::tree_walk<Node> w{nodes, {}};
+    w.at_leaf = [&](std::uint32_t leaf, const test::tree_way& way) {
+      for (std::uint32_t k = 0; k < FACET_LEAF_COUNT(leaf); ++k) {
+        const std::uint32_t slot = FACET_LEAF_FIRST(leaf) + k;
+        slots.insert(slot);
+        for (std::size_t c = 0; c < 3; ++c) {
+          const texel& p = corners[3 * slot + c];
+          escaped += w.escaped({p[0], p[1], p[2]}, way);
+        }
+      }
+    };
+    w.down(content(g.world)[0].root);
+    CHECK(escaped == 0);
+    CHECK(slots.size() == n);
+    CHECK(std::set<std::uint32_t>(slots.begin(), slots.end()).size() == n);
     CHECK(w.deepest <= g.depth);
     CHECK(g.stack >= 3 * w.deepest);
     CHECK(g.nodes_used == 2 * std::uint64_t(n) - 1);

@@ -9,10 +9,12 @@
 #include "tracer/device_helper.hpp"
 #include "tracer/kernels.hpp"
 #include "tracer/scenes_helper.hpp"
+#include "tracer/tree_walk_helper.hpp"
 #include "tracer/wide_geometry.hpp"
 
 using namespace facet;
 using namespace facet::tracer;
+using test::content;
 
 namespace {
 
@@ -20,12 +22,6 @@ device_geometry geometry_of(const scene& s, tree_kind kind = tree_kind::levels) 
   const features f = features::of(s);
   return build_wide_geometry(test::queue(), kernel_sources(), pack(s, f.smooth), f, kind,
                              tuning_for(test::device()), {});
-}
-
-template <class T>
-std::vector<T> content(const runtime::buffer<T>& b) {
-  const runtime::host_accessor read{b, runtime::read_only};
-  return {read.begin(), read.end()};
 }
 
 std::vector<TriangleBlock> blocks_of(const device_geometry& g) {
@@ -49,42 +45,6 @@ bool is_triangle_of(const mesh& m, std::uint32_t t, const corners& p) {
   return p[0] == m.position(t, 0) && p[1] == m.position(t, 1) && p[2] == m.position(t, 2);
 }
 
-bool holds(const WideNode& n, std::size_t c, vec3f p) {
-  return n.x[0][c] <= p.x && p.x <= n.x[1][c] && n.y[0][c] <= p.y && p.y <= n.y[1][c] &&
-         n.z[0][c] <= p.z && p.z <= n.z[1][c];
-}
-
-/// A way down to every leaf: which blocks it names, how long it is, what boxes do not hold.
-struct walk {
-  const std::vector<WideNode>& nodes;
-  const std::vector<TriangleBlock>& blocks;
-  std::multiset<std::uint32_t> leaves = {};
-  std::uint32_t deepest = 0, escaped = 0, visited = 0;
-
-  void down(std::uint32_t child, std::vector<std::pair<std::uint32_t, std::size_t>> way) {
-    REQUIRE(++visited < 1'000'000);
-    deepest = std::max(deepest, std::uint32_t(way.size()));
-    if (child & FACET_LEAF_BIT) {
-      const std::uint32_t block = FACET_LEAF_FIRST(child);
-      CHECK(FACET_LEAF_COUNT(child) == 1);
-      leaves.insert(block);
-      for (std::size_t lane = 0; lane < FACET_BLOCK; ++lane)
-        for (const vec3f& p : triangle_in(blocks, block * FACET_BLOCK + lane))
-          for (const auto& [node, at] : way) escaped += !holds(nodes[node], at, p);
-      return;
-    }
-    for (std::size_t c = 0; c < 8; ++c) {
-      if (nodes[child].child[c] == FACET_NONE) {
-        CHECK(nodes[child].x[0][c] > nodes[child].x[1][c]);
-        continue;
-      }
-      auto further = way;
-      further.emplace_back(child, c);
-      down(nodes[child].child[c], further);
-    }
-  }
-};
-
 }  // namespace
 
 TEST_CASE("wide: each block is one leaf, every node holds what is below it, the stack suffices") {
@@ -93,11 +53,21 @@ TEST_CASE("wide: each block is one leaf, every node holds what is below it, the 
     const device_geometry g = geometry_of(test::one_mesh(test::random_soup(n, n)));
     const auto nodes = content(g.wide_nodes);
     const auto blocks = blocks_of(g);
-    walk w{nodes, blocks};
-    w.down(content(g.world)[0].root, {});
-    CHECK(w.escaped == 0);
-    CHECK(w.leaves.size() == blocks.size());
-    CHECK(std::set<std::uint32_t>(w.leaves.begin(), w.leaves.end()).size() == blocks.size());
+    std::multiset<std::uint32_t> leaves;
+    std::uint32_t escaped = 0;
+    test::tree_walk<WideNode> w{nodes, {}};
+    w.at_leaf = [&](std::uint32_t leaf, const test::tree_way& way) {
+      const std::uint32_t block = FACET_LEAF_FIRST(leaf);
+      CHECK(FACET_LEAF_COUNT(leaf) == 1);
+      leaves.insert(block);
+      for (std::size_t lane = 0; lane < FACET_BLOCK; ++lane)
+        for (const vec3f& p : triangle_in(blocks, block * FACET_BLOCK + lane))
+          escaped += w.escaped(p, way);
+    };
+    w.down(content(g.world)[0].root);
+    CHECK(escaped == 0);
+    CHECK(leaves.size() == blocks.size());
+    CHECK(std::set<std::uint32_t>(leaves.begin(), leaves.end()).size() == blocks.size());
     CHECK(g.stack == 7 * w.deepest);
     CHECK(w.deepest <= g.depth);
     CHECK(g.nodes_used == 2 * std::uint64_t(n) - 1);
