@@ -1,6 +1,5 @@
 // facet render: from a scene to a picture.
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -18,15 +17,13 @@
 #include "image/output.hpp"
 #include "reference/tracer.hpp"
 #include "scene/load.hpp"
+#include "tracer/stopwatch.hpp"
 
 namespace facet::cli {
 namespace {
 
-using clock = std::chrono::steady_clock;
-
-double milliseconds_since(clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(clock::now() - start).count();
-}
+using tracer::clock;
+using tracer::milliseconds_since;
 
 struct arguments {
   CLI::App* app = nullptr;

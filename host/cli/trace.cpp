@@ -1,7 +1,6 @@
 // facet trace: rays in, hits out.
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
 #include <cstring>
 #include <filesystem>
 #include <memory>
@@ -19,15 +18,13 @@
 #include "image/npy.hpp"
 #include "image/output.hpp"
 #include "reference/tracer.hpp"
+#include "tracer/stopwatch.hpp"
 
 namespace facet::cli {
 namespace {
 
-using clock = std::chrono::steady_clock;
-
-double milliseconds_since(clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(clock::now() - start).count();
-}
+using tracer::clock;
+using tracer::milliseconds_since;
 
 struct arguments {
   CLI::App* app = nullptr;

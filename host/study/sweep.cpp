@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <chrono>
 #include <optional>
 #include <random>
 
@@ -10,15 +9,13 @@
 #include "reference/tracer.hpp"
 #include "study/fingerprint.hpp"
 #include "study/forecast.hpp"
+#include "tracer/stopwatch.hpp"
 
 namespace facet::study {
 namespace {
 
-using clock = std::chrono::steady_clock;
-
-double milliseconds_since(clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(clock::now() - start).count();
-}
+using tracer::clock;
+using tracer::milliseconds_since;
 
 /// Thrown inside, once `cancel` became true.
 struct stopped {};

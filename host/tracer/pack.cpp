@@ -122,6 +122,12 @@ packed_scene pack(const scene& s, bool with_normals) {
   return p;
 }
 
+std::uint32_t largest_mesh(const packed_scene& p) {
+  std::uint32_t largest = 0;
+  for (const packed_mesh& m : p.meshes) largest = std::max(largest, m.triangle_count);
+  return largest;
+}
+
 View pack_view(const scene& s, const std::vector<std::uint32_t>& media, std::uint32_t width,
                std::uint32_t height, std::uint32_t max_depth) {
   const camera_frame f = frame_of(s.view, width, height);

@@ -35,6 +35,9 @@ struct packed_scene {
   World world{};
 };
 
+/// Triangles of the largest mesh.
+std::uint32_t largest_mesh(const packed_scene& p);
+
 /// The scene must be valid (scene/validate.hpp). Meshes that no instance shows are packed as empty.
 packed_scene pack(const scene& s, bool with_normals);
 

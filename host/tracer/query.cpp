@@ -1,9 +1,9 @@
 // Rays in, hits out: device_scene::trace.
-#include <chrono>
 #include <limits>
 
 #include "tracer/launch.hpp"
 #include "tracer/state.hpp"
+#include "tracer/stopwatch.hpp"
 
 namespace facet::tracer {
 namespace {
@@ -30,7 +30,7 @@ std::vector<hit> device_scene::trace(std::span<const ray> rays, bool any, unsign
   }
   if (rays.empty()) return hits;
 
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = clock::now();
   const bool with_instances = s.used.instances;
   const auto count = std::uint32_t(rays.size());
   runtime::buffer<Ray> in(reinterpret_cast<const Ray*>(rays.data()), rays.size());
@@ -64,8 +64,7 @@ std::vector<hit> device_scene::trace(std::span<const ray> rays, bool any, unsign
   }
   if (stats) {
     stats->refused = s.read_faults().refused;
-    stats->wall_ms =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    stats->wall_ms = milliseconds_since(start);
   }
   return hits;
 }

@@ -1,10 +1,10 @@
 // Pictures, tile by tile: device_scene::render.
 #include <algorithm>
-#include <chrono>
 
 #include "scene/error.hpp"
 #include "scene/media.hpp"
 #include "tracer/state.hpp"
+#include "tracer/stopwatch.hpp"
 
 namespace facet::tracer {
 namespace {
@@ -122,7 +122,7 @@ picture device_scene::render(std::uint32_t width, std::uint32_t height, std::uin
   // The first launch of a work-group size may compile (PoCL does): one pixel pays for it.
   launch({0, 0, 1, 1}).wait_and_throw();
   s.clear_faults();
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = clock::now();
   std::uint64_t done = 0;
   double kernel_ms = 0;
   std::uint32_t tiles = 0;
@@ -155,8 +155,7 @@ picture device_scene::render(std::uint32_t width, std::uint32_t height, std::uin
     const Faults faults = s.read_faults();
     stats->refused = faults.refused;
     stats->crowded = faults.crowded;
-    stats->wall_ms =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    stats->wall_ms = milliseconds_since(start);
   }
   return result;
 }

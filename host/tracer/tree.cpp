@@ -1,25 +1,19 @@
 #include "tracer/tree.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <string>
 #include <vector>
 
+#include "tracer/binary_builder.hpp"
 #include "tracer/given_tree.hpp"
 #include "tracer/kernels.hpp"
 #include "tracer/launch.hpp"
-#include "tracer/levels.hpp"
+#include "tracer/stopwatch.hpp"
 
 namespace facet::tracer {
 namespace {
 
 constexpr std::uint32_t image_width = 1u << 13;  ///< cl/geometry.h: FACET_IMAGE_BITS
-
-using clock = std::chrono::steady_clock;
-
-double milliseconds_since(clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(clock::now() - start).count();
-}
 
 /// Bytes that building and keeping the geometry takes at its peak.
 std::uint64_t peak_bytes(std::uint64_t triangles, std::uint64_t largest_mesh, bool smooth,
@@ -27,9 +21,8 @@ std::uint64_t peak_bytes(std::uint64_t triangles, std::uint64_t largest_mesh, bo
   const std::uint64_t corners = 48, normals = smooth ? 48u : 0u;
   const std::uint64_t kept = triangles * (sizeof(Node) + sizeof(TriangleInfo) + corners + normals);
   const std::uint64_t uploaded = triangles * (corners + normals + 4);
-  // Boxes, codes and order with their sorting copies, tree nodes, subtree ends, level lists.
-  const std::uint64_t scratch = largest_mesh * (sizeof(Box) + 2 * sizeof(TreeNode) + 48);
-  return kept + uploaded + scratch + (in_images ? triangles * (corners + normals) : 0);
+  return kept + uploaded + binary_builder::scratch_bytes(largest_mesh) +
+         (in_images ? triangles * (corners + normals) : 0);
 }
 
 /// An image of `texels` in rows of image_width, filled from a buffer of whole rows.
@@ -62,26 +55,20 @@ class geometry_builder {
   geometry_builder(runtime::queue& q, const runtime::source_tree& kernels, const tuning& t)
       : queue_(q),
         tuning_(t),
-        morton_(q, kernels, t),
-        levels_(q, kernels, t),
+        binary_(q, kernels, t),
         program_(compiled(q, kernels, "tree.cl", t.flags())),
         make_nodes_(program_.get_kernel("make_nodes")),
         gather_triangles_(program_.get_kernel("gather_triangles")),
         gather_normals_(program_.get_kernel("gather_normals")) {}
 
-  double compile_ms() const {
-    return morton_.compile_ms() + levels_.compile_ms() + program_.build_ms();
-  }
+  double compile_ms() const { return binary_.compile_ms() + program_.build_ms(); }
 
   binary_tree over_triangles(runtime::buffer<texel>& corners, std::uint32_t count) {
-    runtime::buffer<Box> boxes(count);
-    morton_.triangle_boxes(corners, boxes, count);
-    return levels_.build(boxes, count);
+    return binary_.over_triangles(corners, count);
   }
 
-  binary_tree over_boxes(std::vector<Box>& boxes) {
-    runtime::buffer<Box> on_device(boxes.data(), boxes.size());
-    return levels_.build(on_device, std::uint32_t(boxes.size()));
+  binary_tree over_instances(const std::vector<Instance>& placed) {
+    return binary_.over_instances(placed);
   }
 
   static binary_tree from(const given_tree& given, std::span<const texel> corners) {
@@ -132,8 +119,7 @@ class geometry_builder {
  private:
   runtime::queue& queue_;
   const tuning& tuning_;
-  morton morton_;
-  levels_builder levels_;
+  binary_builder binary_;
   runtime::program program_;
   runtime::kernel make_nodes_, gather_triangles_, gather_normals_;
 };
@@ -142,13 +128,6 @@ runtime::buffer<std::uint32_t> identity_order(std::uint32_t count) {
   std::vector<std::uint32_t> order(count);
   for (std::uint32_t i = 0; i < count; ++i) order[i] = i;
   return runtime::buffer<std::uint32_t>(order.data(), order.size());
-}
-
-Box box_of(const Instance& i) {
-  Box b{};
-  std::copy(std::begin(i.lo), std::end(i.lo), b.lo);
-  std::copy(std::begin(i.hi), std::end(i.hi), b.hi);
-  return b;
 }
 
 }  // namespace
@@ -168,9 +147,7 @@ device_geometry build_geometry(runtime::queue& q, const runtime::source_tree& ke
                                bool in_images, const tuning& t, std::span<const given_tree> given) {
   const std::size_t triangles = packed.world.triangle_count;
   const bool smooth = f.smooth;
-  std::uint32_t largest = 0;
-  for (const packed_mesh& m : packed.meshes) largest = std::max(largest, m.triangle_count);
-  const std::uint64_t peak = peak_bytes(triangles, largest, smooth, in_images);
+  const std::uint64_t peak = peak_bytes(triangles, largest_mesh(packed), smooth, in_images);
   check_memory(q.get_device(), triangles, peak);
 
   geometry_builder build(q, kernels, t);
@@ -238,10 +215,7 @@ device_geometry build_geometry(runtime::queue& q, const runtime::source_tree& ke
     packed.world.root = placed.empty() ? FACET_NONE : placed[0].root;
     g.depth = mesh_depth;
   } else if (kind != tree_kind::none && !placed.empty()) {
-    std::vector<Box> boxes;
-    boxes.reserve(placed.size());
-    for (const Instance& i : placed) boxes.push_back(box_of(i));
-    binary_tree top = build.over_boxes(boxes);
+    binary_tree top = build.over_instances(placed);
     packed.world.root = build.emit(top, g.nodes, 1, packed.world.triangle_count, 0);
     g.nodes_used += 2 * std::uint64_t(placed.size()) - 1;
     const runtime::host_accessor order{top.order, runtime::read_only};

@@ -1,24 +1,17 @@
 #include "tracer/wide_geometry.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <numeric>
 #include <string>
 #include <vector>
 
+#include "tracer/binary_builder.hpp"
 #include "tracer/given_tree.hpp"
-#include "tracer/levels.hpp"
-#include "tracer/morton.hpp"
+#include "tracer/stopwatch.hpp"
 #include "tracer/wide_layout.hpp"
 
 namespace facet::tracer {
 namespace {
-
-using clock = std::chrono::steady_clock;
-
-double milliseconds_since(clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(clock::now() - start).count();
-}
 
 /// What the device keeps, as it grows mesh by mesh.
 struct arrays {
@@ -30,39 +23,19 @@ struct arrays {
   std::uint32_t slots() const { return std::uint32_t(infos.size()); }
 };
 
-class binary_builder {
- public:
-  binary_builder(runtime::queue& q, const runtime::source_tree& kernels, const tuning& t)
-      : morton_(q, kernels, t), levels_(q, kernels, t) {}
-
-  double compile_ms() const { return morton_.compile_ms() + levels_.compile_ms(); }
-
-  host_binary_tree over_triangles(std::span<const texel> corners) {
-    const auto count = std::uint32_t(corners.size() / 3);
-    runtime::buffer<texel> on_device(corners);
-    runtime::buffer<Box> boxes(count);
-    morton_.triangle_boxes(on_device, boxes, count);
-    return read(levels_.build(boxes, count));
-  }
-
-  host_binary_tree over_boxes(const std::vector<Box>& boxes) {
-    runtime::buffer<Box> on_device(boxes.data(), boxes.size());
-    return read(levels_.build(on_device, std::uint32_t(boxes.size())));
-  }
-
- private:
-  static host_binary_tree read(const binary_tree& t) {
-    const runtime::host_accessor nodes{t.nodes, runtime::read_only};
-    const runtime::host_accessor order{t.order, runtime::read_only};
-    return {{nodes.begin(), nodes.begin() + std::ptrdiff_t(2 * std::size_t(t.count) - 1)},
-            {order.begin(), order.begin() + std::ptrdiff_t(t.count)},
-            t.root,
-            t.depth};
-  }
-
-  morton morton_;
-  levels_builder levels_;
+/// Where a mesh stands in them.
+struct mesh_place {
+  std::uint32_t root = FACET_NONE, first_slot = 0, slots = 0;
 };
+
+host_binary_tree read(const binary_tree& t) {
+  const runtime::host_accessor nodes{t.nodes, runtime::read_only};
+  const runtime::host_accessor order{t.order, runtime::read_only};
+  return {{nodes.begin(), nodes.begin() + std::ptrdiff_t(2 * std::size_t(t.count) - 1)},
+          {order.begin(), order.begin() + std::ptrdiff_t(t.count)},
+          t.root,
+          t.depth};
+}
 
 /// The mesh's own order, in whole blocks.
 std::vector<std::uint32_t> blocks_in_order(std::uint32_t count) {
@@ -97,71 +70,60 @@ std::uint64_t bytes_of(const std::vector<T>& of) {
   return of.size() * sizeof(T);
 }
 
-/// Bytes that building one mesh's binary tree takes: its corners, boxes, codes and order with their
-/// sorting copies, tree nodes, subtree ends, level lists.
-std::uint64_t scratch_bytes(std::uint64_t triangles) {
-  return triangles * (3 * sizeof(texel) + sizeof(Box) + 2 * sizeof(TreeNode) + 48);
-}
-
-Box box_of(const Instance& i) {
-  Box b{};
-  std::copy(std::begin(i.lo), std::end(i.lo), b.lo);
-  std::copy(std::begin(i.hi), std::end(i.hi), b.hi);
-  return b;
-}
-
 }  // namespace
 
 device_geometry build_wide_geometry(runtime::queue& q, const runtime::source_tree& kernels,
                                     packed_scene packed, const features& f, tree_kind kind,
                                     const tuning& t, std::span<const given_tree> given) {
-  std::uint32_t largest = 0;
-  for (const packed_mesh& m : packed.meshes) largest = std::max(largest, m.triangle_count);
-  const std::uint64_t triangles = packed.world.triangle_count;
-  check_memory(q.get_device(), triangles, scratch_bytes(largest));
+  const std::uint64_t triangles = packed.world.triangle_count, largest = largest_mesh(packed);
+  check_memory(q.get_device(), triangles,
+               3 * sizeof(texel) * largest + binary_builder::scratch_bytes(largest));
 
   const auto start_build = clock::now();
   binary_builder build(q, kernels, t);
   arrays to;
   std::uint32_t depth = 0, binary_depth = 0;
   std::uint64_t binary_nodes = 0;
-  std::vector<Instance>& placed = packed.instances;
+  std::vector<mesh_place> places(packed.meshes.size());
   for (std::size_t k = 0; k < packed.meshes.size(); ++k) {
     const packed_mesh& m = packed.meshes[k];
     if (m.triangle_count == 0) continue;
-    const std::uint32_t first_slot = to.slots();
-    std::uint32_t root = FACET_NONE;
+    mesh_place& there = places[k];
+    there.first_slot = to.slots();
     if (kind == tree_kind::none) {
       append_triangles(packed, m, blocks_in_order(m.triangle_count), f.smooth, to);
     } else {
       const auto corners =
           std::span<const texel>(packed.corners)
               .subspan(3 * std::size_t(m.first_triangle), 3 * std::size_t(m.triangle_count));
-      const host_binary_tree binary =
-          k < given.size() ? binary_of(given[k], corners) : build.over_triangles(corners);
-      const wide_tree tree = widened(binary.nodes, binary.root, m.triangle_count, FACET_BLOCK,
-                                     std::uint32_t(to.nodes.size()), first_slot / FACET_BLOCK);
+      const auto built = [&] {
+        runtime::buffer<texel> on_device(corners);
+        return read(build.over_triangles(on_device, m.triangle_count));
+      };
+      const host_binary_tree binary = k < given.size() ? binary_of(given[k], corners) : built();
+      const wide_tree tree =
+          widened(binary.nodes, binary.root, m.triangle_count, FACET_BLOCK,
+                  std::uint32_t(to.nodes.size()), there.first_slot / FACET_BLOCK);
       append_triangles(packed, m, tree.order, f.smooth, to);
       to.nodes.insert(to.nodes.end(), tree.nodes.begin(), tree.nodes.end());
-      root = tree.root;
+      there.root = tree.root;
       depth = std::max(depth, tree.depth);
       binary_depth = std::max(binary_depth, binary.depth);
       binary_nodes += binary.nodes.size();
     }
-    for (std::size_t i = 0; i < placed.size(); ++i) {
-      if (packed.instance_meshes[i] != k) continue;
-      placed[i].root = root;
-      placed[i].first_triangle = first_slot;
-      placed[i].triangle_count = to.slots() - first_slot;
-    }
+    there.slots = to.slots() - there.first_slot;
+  }
+  std::vector<Instance>& placed = packed.instances;
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    const mesh_place& there = places[packed.instance_meshes[i]];
+    placed[i].root = there.root;
+    placed[i].first_triangle = there.first_slot;
+    placed[i].triangle_count = there.slots;
   }
   if (!f.instances) {
     packed.world.root = placed.empty() ? FACET_NONE : placed[0].root;
   } else if (kind != tree_kind::none && !placed.empty()) {
-    std::vector<Box> boxes;
-    boxes.reserve(placed.size());
-    for (const Instance& i : placed) boxes.push_back(box_of(i));
-    const host_binary_tree binary = build.over_boxes(boxes);
+    const host_binary_tree binary = read(build.over_instances(placed));
     const wide_tree top = widened(binary.nodes, binary.root, std::uint32_t(placed.size()), 1,
                                   std::uint32_t(to.nodes.size()), 0);
     std::vector<Instance> sorted;
