@@ -45,19 +45,15 @@ typedef struct {
 static inline Slabs slabs_of(float3 o, float3 d, float extent, float largest) {
   const float pad = (24.0f * FACET_ULP) * extent;
   const float least = largest * 8.673617379884035e-19f;
-  const float3 raised = (float3)(fabs(d.x) < least ? copysign(least, d.x) : d.x,
-                                 fabs(d.y) < least ? copysign(least, d.y) : d.y,
-                                 fabs(d.z) < least ? copysign(least, d.z) : d.z);
+  const float3 raised = fabs(d) < least ? copysign((float3)(least), d) : d;
   Slabs s;
   s.inverse = 1.0f / raised;
   const float3 p = pad * fabs(s.inverse);
   const float3 c = -(o * s.inverse);
-  s.near_offset = c - p;
-  s.far_offset = c + p;
   // An axis whose offset overflows tells nothing of where the ray is.
-  if (!(fabs(c.x) < INFINITY)) s.near_offset.x = -INFINITY, s.far_offset.x = INFINITY;
-  if (!(fabs(c.y) < INFINITY)) s.near_offset.y = -INFINITY, s.far_offset.y = INFINITY;
-  if (!(fabs(c.z) < INFINITY)) s.near_offset.z = -INFINITY, s.far_offset.z = INFINITY;
+  const int3 is_known = fabs(c) < INFINITY;
+  s.near_offset = is_known ? c - p : (float3)(-INFINITY);
+  s.far_offset = is_known ? c + p : (float3)(INFINITY);
   return s;
 }
 
@@ -70,33 +66,34 @@ static inline Interval box_interval(const Slabs s, float3 lo, float3 hi) {
   return i;
 }
 
-// Which side of each axis a ray meets first, as an index into Node's x, y and z.
+// Where in a node the sides stand that a ray meets first, of each axis: in floats.
+#define FACET_SIDE ((uint)(sizeof(Each) / sizeof(float)))
 typedef struct {
   uint x, y, z;
 } Sides;
 
 static inline Sides near_sides(const Slabs s) {
   Sides n;
-  n.x = s.inverse.x > 0.0f ? 0u : 1u;
-  n.y = s.inverse.y > 0.0f ? 0u : 1u;
-  n.z = s.inverse.z > 0.0f ? 0u : 1u;
+  n.x = s.inverse.x > 0.0f ? 0u : FACET_SIDE;
+  n.y = s.inverse.y > 0.0f ? 2u * FACET_SIDE : 3u * FACET_SIDE;
+  n.z = s.inverse.z > 0.0f ? 4u * FACET_SIDE : 5u * FACET_SIDE;
   return n;
 }
 
-static inline Each entry_of(Each face, float inverse, float offset) {
-  return fma(face, (Each)(inverse), (Each)(offset));
+static inline Each crossed_at(__global const float* face, float inverse, float offset) {
+  return fma(*(__global const Each*)face, (Each)(inverse), (Each)(offset));
 }
 
 // The intervals of a node's children, cut to tmin and best: child c must be visited exactly
 // where near c <= far c. `faces` are the node's six sides in order.
-static inline void child_intervals(const Slabs s, const Sides side, __global const Each* faces, float tmin,
-                                   float best, Each* near, Each* far) {
-  const Each nx = entry_of(faces[side.x], s.inverse.x, s.near_offset.x);
-  const Each ny = entry_of(faces[2u + side.y], s.inverse.y, s.near_offset.y);
-  const Each nz = entry_of(faces[4u + side.z], s.inverse.z, s.near_offset.z);
-  const Each fx = entry_of(faces[1u - side.x], s.inverse.x, s.far_offset.x);
-  const Each fy = entry_of(faces[3u - side.y], s.inverse.y, s.far_offset.y);
-  const Each fz = entry_of(faces[5u - side.z], s.inverse.z, s.far_offset.z);
+static inline void child_intervals(const Slabs s, const Sides near_at, __global const float* faces,
+                                   float tmin, float best, Each* near, Each* far) {
+  const Each nx = crossed_at(faces + near_at.x, s.inverse.x, s.near_offset.x);
+  const Each ny = crossed_at(faces + near_at.y, s.inverse.y, s.near_offset.y);
+  const Each nz = crossed_at(faces + near_at.z, s.inverse.z, s.near_offset.z);
+  const Each fx = crossed_at(faces + (FACET_SIDE - near_at.x), s.inverse.x, s.far_offset.x);
+  const Each fy = crossed_at(faces + (5u * FACET_SIDE - near_at.y), s.inverse.y, s.far_offset.y);
+  const Each fz = crossed_at(faces + (9u * FACET_SIDE - near_at.z), s.inverse.z, s.far_offset.z);
   const Each x = FACET_CULL_MAX(nx, (Each)(tmin)), a = FACET_CULL_MIN(fx, (Each)(best));
   const Each y = FACET_CULL_MAX(ny, x), b = FACET_CULL_MIN(fy, a);
   *near = FACET_CULL_MAX(nz, y);

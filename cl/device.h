@@ -1,4 +1,5 @@
-// What differs from device to device, behind names; each has a portable form that is the default.
+// What differs from device to device, behind names; each has a portable form, which is the default or
+// is had by FACET_PORTABLE.
 #ifndef FACET_DEVICE_H
 #define FACET_DEVICE_H
 
@@ -14,12 +15,10 @@
 #endif
 static inline float cull_max1(float a, float bound) { return FACET_CULL_MAX(a, bound); }
 static inline float cull_min1(float a, float bound) { return FACET_CULL_MIN(a, bound); }
-static inline float3 cull_max3(float3 a, float3 bound) { return FACET_CULL_MAX(a, bound); }
-static inline float3 cull_min3(float3 a, float3 bound) { return FACET_CULL_MIN(a, bound); }
 
 // The lanes where a comparison of vectors holds, as bits: lane k is bit k. The portable form gathers
 // the lowest bits of eight bytes by a product: byte k's comes to bit 56 + k, and nothing carries.
-#ifdef __AVX__
+#if defined(__AVX__) && !defined(FACET_PORTABLE)
 static inline uint lanes_of(int8 m) { return (uint)__builtin_ia32_movmskps256(as_float8(m)); }
 #else
 static inline uint lanes_of(int8 m) {
@@ -28,11 +27,21 @@ static inline uint lanes_of(int8 m) {
 #endif
 
 // The lowest of the lanes, of which there is at least one.
-#ifdef __x86_64__
+#if defined(__x86_64__) && !defined(FACET_PORTABLE)
 static inline uint first_lane(uint lanes) { return (uint)__builtin_ctz(lanes); }
 #else
 static inline uint first_lane(uint lanes) { return 31u - clz(lanes & -lanes); }
 #endif
 static inline uint without_first(uint lanes) { return lanes & (lanes - 1u); }
+
+// Asks for the memory from p on, which is read later.
+#if defined(__x86_64__) && !defined(FACET_PORTABLE)
+static inline void fetch_lines(__global const void* p, uint bytes) {
+  const size_t first = (size_t)p;
+  for (uint k = 0u; k < bytes; k += 64u) __builtin_prefetch((const void*)(first + k));
+}
+#else
+static inline void fetch_lines(__global const void* p, uint bytes) {}
+#endif
 
 #endif

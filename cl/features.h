@@ -12,7 +12,7 @@
 //   FACET_STACK=n          entries of the traversal stack: three for each level, or seven (traverse.h)
 //   FACET_RAY_STACK=n      entries of the stack of pending rays: at least max_depth
 //   FACET_NESTING=n        transparent objects that may lie within one another (media.h)
-//   FACET_HARDWARE_MINMAX  see device.h
+//   FACET_HARDWARE_MINMAX, FACET_PORTABLE  see device.h
 #ifndef FACET_FEATURES_H
 #define FACET_FEATURES_H
 

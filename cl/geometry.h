@@ -39,12 +39,12 @@ static inline void read_normals(GEOMETRY g, uint slot, float3* n0, float3* n1, f
 // What is tested at once: a block (layout.h: TriangleBlock), the three axes of three corners.
 typedef __global const float8* Triangles;
 
-static inline Triangles triangles_from(GEOMETRY g, uint slot) {
-  return (Triangles)((__global const TriangleBlock*)g + slot / FACET_BLOCK);
+static inline Triangles triangles_from(GEOMETRY g, uint block) {
+  return (Triangles)((__global const TriangleBlock*)g + block);
 }
 
 static inline void read_triangle(GEOMETRY g, uint slot, float3* p0, float3* p1, float3* p2) {
-  __global const float* x = (__global const float*)triangles_from(g, slot) + slot % FACET_BLOCK;
+  __global const float* x = (__global const float*)triangles_from(g, slot / FACET_BLOCK) + slot % FACET_BLOCK;
   *p0 = (float3)(x[0], x[8], x[16]);
   *p1 = (float3)(x[24], x[32], x[40]);
   *p2 = (float3)(x[48], x[56], x[64]);

@@ -114,17 +114,18 @@ static inline bool take_hit(const Scene* s, uint place, uint slot, float t, bool
   return false;
 }
 
-// Tests the triangles in `slot` and, in the wide layout, the rest of its block; true if the query is
+// Tests the triangle in slot `first`, or in the wide layout those of that block; true if the query is
 // answered.
 static inline bool meet_triangles(const Scene* s, GEOMETRY positions, const Space* space, uint place,
-                                  Interval outer, uint slot, float tmin, uint mode, Query* q) {
+                                  Interval outer, uint first, float tmin, uint mode, Query* q) {
   TriangleHits hits;
-  const Mask met = hit_triangles(space, triangles_from(positions, slot), outer, tmin, q->t,
-                                 mode == FACET_CROSSINGS, &hits);
-  for (uint left = lanes_where(met); left != 0u; left = without_first(left)) {
+  uint left = hit_triangles(space, triangles_from(positions, first), outer, tmin, q->t,
+                            mode == FACET_CROSSINGS, &hits);
+  for (; left != 0u; left = without_first(left)) {
     const uint lane = first_lane(left);
     const bool is_crossing = mode == FACET_CROSSINGS;
-    if (take_hit(s, place, slot + lane, in_lane(hits.t, lane), is_crossing && is_in(hits.is_front, lane),
+    if (take_hit(s, place, FACET_LANES * first + lane, in_lane(hits.t, lane),
+                 is_crossing && is_in(hits.is_front, lane),
                  is_crossing && is_in(hits.is_counted, lane), mode, q))
       return true;
   }

@@ -25,7 +25,7 @@ static inline void search(const Scene* s, GEOMETRY positions, float3 o, float3 d
   uint node = s->root;
   Interval outer = {-INFINITY, INFINITY};
   uint place = 0u;
-  Sides side = near_sides(space->slabs);
+  Sides sides = near_sides(space->slabs);
 #ifndef FACET_NO_INSTANCES
   bool is_inside = false;  // in an instance's tree
   const Slabs world = space->slabs;
@@ -33,10 +33,10 @@ static inline void search(const Scene* s, GEOMETRY positions, float3 o, float3 d
   for (;;) {
     bool is_leaf = true;
     while (!(node & FACET_LEAF_BIT)) {
-      __global const Each* faces = (__global const Each*)(s->nodes + node);
-      const uint4 child = ((__global const uint4*)faces)[6];
+      __global const Node* n = s->nodes + node;
+      const uint4 child = *(__global const uint4*)n->child;
       Each near, far;
-      child_intervals(space->slabs, side, faces, tmin, q->t, &near, &far);
+      child_intervals(space->slabs, sides, n->x[0], tmin, q->t, &near, &far);
       ulong a = waiting(near.x, far.x, child.x), b = waiting(near.y, far.y, child.y),
             c = waiting(near.z, far.z, child.z), e = waiting(near.w, far.w, child.w);
       // A sorting network: a <= b <= c <= e.
@@ -57,7 +57,7 @@ static inline void search(const Scene* s, GEOMETRY positions, float3 o, float3 d
         place = FACET_LEAF_FIRST(node);
         if (enter_instance(s, place, o, d, world, &outer, space)) {
           is_inside = true;
-          side = near_sides(space->slabs);
+          sides = near_sides(space->slabs);
           stack[top++] = FACET_INSTANCE_ENDS;
           node = s->instances[place].root;
           continue;
@@ -79,7 +79,7 @@ static inline void search(const Scene* s, GEOMETRY positions, float3 o, float3 d
       if (entry == FACET_INSTANCE_ENDS) {
         is_inside = false;
         space->slabs = world;
-        side = near_sides(world);
+        sides = near_sides(world);
       }
 #endif
     } while (near_of(entry) > q->t || entry == FACET_INSTANCE_ENDS);

@@ -15,18 +15,33 @@ static inline float near_of(ulong entry) { return as_float((uint)(entry >> 32));
 // A mark on the stack: below it lies what waits in the world, above it an instance's tree.
 #define FACET_INSTANCE_ENDS ((ulong)FACET_NONE)
 
-// Puts the children in `lanes` on the stack, the farthest first, and gives the nearest.
-static inline uint push_children(__global const uint* child, uint lanes, Each near, ulong* stack,
-                                 int* top) {
+// Asks for what waits: it is read after all that lies before it. A block's last bytes are left out, so
+// that node and block are asked for alike. For a leaf of the top tree, whose index is an instance's,
+// some block comes, or nothing.
+static inline void fetch_child(const Scene* s, GEOMETRY positions, uint child) {
+  __global const void* node = s->nodes + child;
+  __global const void* block = triangles_from(positions, FACET_LEAF_FIRST(child));
+  fetch_lines(child & FACET_LEAF_BIT ? block : node, sizeof(WideNode));
+}
+
+// Puts the children in `lanes` on the stack, the farthest first, and gives the nearest. Few nodes have
+// more than two, most of them one: those come before any loop.
+static inline uint push_children(const Scene* s, GEOMETRY positions, __global const uint* child,
+                                 uint lanes, Each near, ulong* stack, int* top) {
   const uint first = first_lane(lanes);
   lanes = without_first(lanes);
   if (lanes == 0u) return child[first];
   float at[8];
   vstore8(near, 0, at);
-  ulong nearest = waiting(at, child, first);
+  const ulong a = waiting(at, child, first), b = waiting(at, child, first_lane(lanes));
+  fetch_child(s, positions, (uint)a);
+  fetch_child(s, positions, (uint)b);
+  ulong nearest = min(a, b);
   const int base = *top;
-  for (; lanes != 0u; lanes = without_first(lanes)) {
+  stack[(*top)++] = max(a, b);
+  for (lanes = without_first(lanes); lanes != 0u; lanes = without_first(lanes)) {
     const ulong next = waiting(at, child, first_lane(lanes));
+    fetch_child(s, positions, (uint)next);
     const ulong farther = max(nearest, next);
     nearest = min(nearest, next);
     int k = (*top)++;
@@ -34,6 +49,18 @@ static inline uint push_children(__global const uint* child, uint lanes, Each ne
     stack[k] = farther;
   }
   return (uint)nearest;
+}
+
+// The same in no order, where t of the hit does not matter: none of them is culled later.
+static inline uint push_unsorted(const Scene* s, GEOMETRY positions, __global const uint* child,
+                                 uint lanes, ulong* stack, int* top) {
+  const uint first = first_lane(lanes);
+  for (lanes = without_first(lanes); lanes != 0u; lanes = without_first(lanes)) {
+    const uint next = child[first_lane(lanes)];
+    fetch_child(s, positions, next);
+    stack[(*top)++] = next;
+  }
+  return child[first];
 }
 
 // Depth first, the nearest child first. A node leaves at most seven children waiting, so seven times
@@ -46,19 +73,21 @@ static inline void search(const Scene* s, GEOMETRY positions, float3 o, float3 d
   uint node = s->root;
   Interval outer = {-INFINITY, INFINITY};
   uint place = 0u;
-  Sides side = near_sides(space->slabs);
+  Sides sides = near_sides(space->slabs);
 #ifndef FACET_NO_INSTANCES
   bool is_inside = false;  // in an instance's tree
   const Slabs world = space->slabs;
 #endif
   for (;;) {
     if (!(node & FACET_LEAF_BIT)) {
-      __global const Each* faces = (__global const Each*)(s->nodes + node);
+      __global const WideNode* n = s->nodes + node;
       Each near, far;
-      child_intervals(space->slabs, side, faces, tmin, q->t, &near, &far);
+      child_intervals(space->slabs, sides, n->x[0], tmin, q->t, &near, &far);
       const uint lanes = lanes_of(near <= far);
       if (lanes != 0u) {
-        node = push_children((__global const uint*)(faces + 6), lanes, near, stack, &top);
+        node = mode == FACET_CLOSEST
+                   ? push_children(s, positions, n->child, lanes, near, stack, &top)
+                   : push_unsorted(s, positions, n->child, lanes, stack, &top);
         continue;
       }
 #ifndef FACET_NO_INSTANCES
@@ -66,14 +95,14 @@ static inline void search(const Scene* s, GEOMETRY positions, float3 o, float3 d
       place = FACET_LEAF_FIRST(node);
       if (enter_instance(s, place, o, d, world, &outer, space)) {
         is_inside = true;
-        side = near_sides(space->slabs);
+        sides = near_sides(space->slabs);
         stack[top++] = FACET_INSTANCE_ENDS;
         node = s->instances[place].root;
         continue;
       }
       space->slabs = world;
 #endif
-    } else if (meet_triangles(s, positions, space, place, outer, FACET_BLOCK * FACET_LEAF_FIRST(node),
+    } else if (meet_triangles(s, positions, space, place, outer, FACET_LEAF_FIRST(node),
                               tmin, mode, q)) {
       return;
     }
@@ -85,7 +114,7 @@ static inline void search(const Scene* s, GEOMETRY positions, float3 o, float3 d
       if (entry == FACET_INSTANCE_ENDS) {
         is_inside = false;
         space->slabs = world;
-        side = near_sides(world);
+        sides = near_sides(world);
       }
 #endif
     } while (near_of(entry) > q->t || entry == FACET_INSTANCE_ENDS);

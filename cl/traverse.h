@@ -25,7 +25,7 @@ static inline void finish(const Scene* s, GEOMETRY positions, float3 o, float3 d
            vec_global(i->reach));
 #endif
   const float2 shares =
-      shares_of(space, triangles_from(positions, q->slot), q->slot % FACET_LANES);
+      shares_of(space, triangles_from(positions, q->slot / FACET_LANES), q->slot % FACET_LANES);
   q->u = shares.x;
   q->v = shares.y;
 }

@@ -45,12 +45,13 @@ static inline bool space_of(Space* s, float3 o, float3 d, float3 reach) {
   const float3 main = swapped(s->axis, d);
   s->o = o;
   s->is_turned = (main.z < 0.0f) != (s->axis != 2u);
-  s->shear = (float2)(main.x / main.z, main.y / main.z);
+  const float3 over_z = (float3)(main.x, main.y, 1.0f) / main.z;
+  s->shear = over_z.xy;
   const float3 e = fabs(o) + reach;
   const float extent = larger(e.x, larger(e.y, e.z));
   const uint exponent = as_uint(larger(extent, 0x1p-60f)) & 0x7f800000u;
   s->unit = as_float(0x7f000000u - exponent);
-  s->t_of_unit = 1.0f / main.z * as_float(exponent);
+  s->t_of_unit = over_z.z * as_float(exponent);
   s->slabs = slabs_of(o, d, extent, largest);
   return true;
 }
@@ -60,9 +61,10 @@ static inline Points relative(const Space* s, Triangles t, int corner) {
   Points a;
 #ifdef FACET_WIDE
   const float3 o = swapped(s->axis, s->o);
-  a.x = t[3 * corner + (s->axis == 0u ? 2 : 0)] - o.x;
-  a.y = t[3 * corner + (s->axis == 1u ? 2 : 1)] - o.y;
-  a.z = t[3 * corner + (int)s->axis] - o.z;
+  __global const float* p = (__global const float*)(t + 3 * corner);
+  a.x = *(Triangles)(p + (s->axis == 0u ? 2u * FACET_BLOCK : 0u)) - o.x;
+  a.y = *(Triangles)(p + (s->axis == 1u ? 2u * FACET_BLOCK : FACET_BLOCK)) - o.y;
+  a.z = *(Triangles)(p + s->axis * FACET_BLOCK) - o.z;
 #else
   const float3 p = swapped(s->axis, t.corner[corner] - s->o);
   a.x = p.x;
@@ -93,7 +95,8 @@ static inline Real rough_edge(Points p, Points q) { return p.x * q.y - p.y * q.x
 
 // Whether the ray passes all edges on one side, or through them.
 static inline Mask is_within(Real u, Real v, Real w) {
-  return ((u >= 0.0f) & (v >= 0.0f) & (w >= 0.0f)) | ((u <= 0.0f) & (v <= 0.0f) & (w <= 0.0f));
+  const Real least = smaller_each(smaller_each(u, v), w), most = larger_each(larger_each(u, v), w);
+  return (least >= 0.0f) | (most <= 0.0f);
 }
 
 // The sign of an edge function with ties broken by moving the ray by (eps, eps^2) in the plane
@@ -136,8 +139,8 @@ static inline Mask hold_to_boxes(const Space* s, Triangles p, Interval outer, Re
   return near <= far;
 }
 
-// Which triangles the ray meets with t in tmin..tmax; the edges belong to the triangle. t lies in
-// the interval of the triangle's own box and in `outer`, that of its instance's box in the world.
+// The lanes of the triangles that the ray meets with t in tmin..tmax; the edges belong to the triangle.
+// t lies in the interval of the triangle's own box and in `outer`, that of its instance's box in the world.
 //
 // It does so by itself, unless an underflow or an instance's maps come between. With u, v, w as they
 // come out, each within 2u of the edge function of the sheared corners, b = u / (u+v+w) and so on are
@@ -149,20 +152,23 @@ static inline Mask hold_to_boxes(const Space* s, Triangles p, Interval outer, Re
 // Nothing overflows: x and y are below 2^62, edge functions below 2^125, z at most 2. Edge
 // functions have lost no more than 2^-147 to underflow: with |det| >= 2^-120 that is below u E / 2, and
 // with |top| >= 2^-100 that of its products is below u |t|.
-static inline Mask hit_triangles(const Space* s, Triangles p, Interval outer, float tmin, float tmax,
+static inline uint hit_triangles(const Space* s, Triangles p, Interval outer, float tmin, float tmax,
                                  bool count, TriangleHits* hits) {
   const Points a = sheared(s, p, 0), b = sheared(s, p, 1), c = sheared(s, p, 2);
   // Most triangles that are tested are passed by: these need no more than the signs.
   const Mask near_by = is_within(rough_edge(c, b), rough_edge(a, c), rough_edge(b, a));
-  if (is_none(near_by)) return near_by;
+  if (is_none(near_by)) return 0u;
   const Real u = edge_function(c, b), v = edge_function(a, c), w = edge_function(b, a);
   const Real det = (u + v) + w;
   Mask met = is_within(u, v, w) & (det != 0.0f);
-  if (is_none(met)) return met;
+  if (is_none(met)) return 0u;
   const Real top = (u * a.z + v * b.z) + w * c.z;
   Real t = top / det * s->t_of_unit;
-  const Mask is_sure = (fabs(top) >= 0x1p-100f) & (fabs(det) >= 0x1p-120f) & (t >= outer.near) &
-                       (t <= outer.far);
+  // |top| >= 2^-100 and |det| >= 2^-120. Without instances `outer` holds everything.
+  Mask is_sure = smaller_each(fabs(top), fabs(det) * 0x1p20f) >= 0x1p-100f;
+#ifndef FACET_NO_INSTANCES
+  is_sure &= (t >= outer.near) & (t <= outer.far);
+#endif
   const Mask is_held = met & !is_sure;
   if (!is_none(is_held)) {
     Real held = t;
@@ -175,7 +181,7 @@ static inline Mask hit_triangles(const Space* s, Triangles p, Interval outer, fl
     hits->is_counted = ((su > 0.0f) & (sv > 0.0f) & (sw > 0.0f)) | ((su < 0.0f) & (sv < 0.0f) & (sw < 0.0f));
     hits->is_front = s->is_turned ? !(su > 0.0f) : su > 0.0f;
   }
-  return met & (t >= tmin) & (t <= tmax);
+  return lanes_where(met & (t >= tmin) & (t <= tmax));
 }
 
 // Where the ray meets a triangle that hit_triangles has accepted: the hit's u and v, the shares of p1

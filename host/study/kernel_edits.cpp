@@ -26,7 +26,7 @@ static inline Points one_point(float3 a) {
   return c;
 }
 
-static inline Mask hit_triangles(const Space* s, Triangles t, Interval outer, float tmin, float tmax,
+static inline uint hit_triangles(const Space* s, Triangles t, Interval outer, float tmin, float tmax,
                                  bool count, TriangleHits* hits) {
   const Points p0 = points_of(t, 0), d = one_point(s->direction);
   const Points e1 = less(points_of(t, 1), p0), e2 = less(points_of(t, 2), p0);
@@ -34,15 +34,15 @@ static inline Mask hit_triangles(const Space* s, Triangles t, Interval outer, fl
   const Real inverse = 1.0f / dot_each(e1, p);
   const Real u = dot_each(o, p) * inverse;
   Mask met = (u >= 0.0f) & (u <= 1.0f);
-  if (is_none(met)) return met;
+  if (is_none(met)) return 0u;
   const Points q = cross_each(o, e1);
   const Real v = dot_each(d, q) * inverse;
   met &= (v >= 0.0f) & (u + v <= 1.0f);
-  if (is_none(met)) return met;
+  if (is_none(met)) return 0u;
   hits->t = dot_each(e2, q) * inverse;
   hits->is_front = inverse > 0.0f;
   hits->is_counted = met;
-  return met & (hits->t >= tmin) & (hits->t <= tmax);
+  return lanes_where(met & (hits->t >= tmin) & (hits->t <= tmax));
 }
 
 static inline float2 shares_of(const Space* s, Triangles t, uint lane) {
@@ -71,7 +71,7 @@ kernel_edits with_direction() {
 kernel_edits moller_trumbore_test() {
   return joined(
       {with_direction(),
-       {{"triangle.h", "static inline Mask hit_triangles(", "static inline Mask unused_test("},
+       {{"triangle.h", "static inline uint hit_triangles(", "static inline uint unused_test("},
         {"triangle.h", "static inline float2 shares_of(", "static inline float2 unused_shares("},
         {"triangle.h", std::string(end_of_shares) + "\n#endif\n",
          std::string(end_of_shares) + moller_trumbore}}});

@@ -15,9 +15,7 @@ kernel_edits unheld() { return {{"triangle.h", "if (!is_none(is_held))", "if (fa
 
 kernel_edits unchecked() {
   return {{"triangle.h", "largest >= 8.673617379884035e-19f &&", "true ||"},
-          {"box.h", "if (!(fabs(c.x) < INFINITY))", "if (false)"},
-          {"box.h", "if (!(fabs(c.y) < INFINITY))", "if (false)"},
-          {"box.h", "if (!(fabs(c.z) < INFINITY))", "if (false)"}};
+          {"box.h", "is_known = fabs(c) < INFINITY;", "is_known = (int3)(-1);"}};
 }
 
 }  // namespace

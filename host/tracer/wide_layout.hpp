@@ -20,8 +20,8 @@ struct wide_tree {
 };
 
 /// Folds the binary tree below `root` over `count` > 0 primitives (binary_tree.hpp: nodes 0 to
-/// count - 1 are leaves): a subtree of at most `lanes` primitives becomes a leaf; of a node's
-/// children the largest inner one is opened until they are eight. Children are named as if the
+/// count - 1 are leaves): a subtree of at most `lanes` primitives becomes a leaf; what becomes a
+/// node is chosen so that the nodes' areas sum up to the least. Children are named as if the
 /// first node stood at `first_node` and the first leaf at `first_leaf`. `lanes` is FACET_BLOCK
 /// for triangles and 1 for instances.
 wide_tree widened(std::span<const TreeNode> binary, std::uint32_t root, std::uint32_t count,

@@ -46,6 +46,11 @@ std::vector<options> every_way() {
         o.all_features = all;
         ways.push_back(o);
       }
+  // Wide, without what is written for x86 alone.
+  options portable;
+  portable.layout = layout_kind::wide;
+  portable.compiler_flags = " -DFACET_PORTABLE";
+  ways.push_back(portable);
   return ways;
 }
 

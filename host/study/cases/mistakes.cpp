@@ -45,7 +45,7 @@ mistake unpadded() { return of("unpadded", "slabs without a pad", unpadded_slabs
 
 mistake far_padding() {
   return of("far-padding", "slabs padded at the far side alone",
-            {{"box.h", "s.near_offset = c - p;", "s.near_offset = c;"}});
+            {{"box.h", "is_known ? c - p :", "is_known ? c :"}});
 }
 
 mistake unchecked_direction() {
@@ -60,14 +60,15 @@ mistake no_tie_break() {
 }
 
 mistake truncated_nodes() {
-  return of("truncated-nodes", "nodes keep 8 bits of a coordinate, cut off",
-            {{"box.h", "  return fma(face, (Each)(inverse), (Each)(offset));",
-              "#ifdef FACET_WIDE\n"
-              "  face = as_float8(as_uint8(face) & 0xffff8000u);\n"
-              "#else\n"
-              "  face = as_float4(as_uint4(face) & 0xffff8000u);\n"
-              "#endif\n"
-              "  return fma(face, (Each)(inverse), (Each)(offset));"}});
+  return of(
+      "truncated-nodes", "nodes keep 8 bits of a coordinate, cut off",
+      {{"box.h", "  return fma(*(__global const Each*)face, (Each)(inverse), (Each)(offset));",
+        "#ifdef FACET_WIDE\n"
+        "  const Each cut = as_float8(vload8(0, (__global const uint*)face) & 0xffff8000u);\n"
+        "#else\n"
+        "  const Each cut = as_float4(vload4(0, (__global const uint*)face) & 0xffff8000u);\n"
+        "#endif\n"
+        "  return fma(cut, (Each)(inverse), (Each)(offset));"}});
 }
 
 mistake chained_ties() {
@@ -127,15 +128,13 @@ mistake wrapped_offsets() {
   return of("wrapped-offsets",
             "byte offsets of corners wrap: at 2^19, where small meshes show it, in place of 2^31",
             {{"geometry.h", "return g[index].xyz;", "return g[index & 0x7fffu].xyz;"},
-             {"geometry.h", "+ slot / FACET_BLOCK)", "+ slot / FACET_BLOCK % 0x71cu)"}});
+             {"geometry.h", "(Triangles)((__global const TriangleBlock*)g + block)",
+              "(Triangles)((__global const TriangleBlock*)g + block % 0x71cu)"}});
 }
 
 mistake exclusive_edges() {
-  return of(
-      "exclusive-edges", "a ray through an edge meets neither of its triangles",
-      {{"triangle.h",
-        "((u >= 0.0f) & (v >= 0.0f) & (w >= 0.0f)) | ((u <= 0.0f) & (v <= 0.0f) & (w <= 0.0f))",
-        "((u > 0.0f) & (v > 0.0f) & (w > 0.0f)) | ((u < 0.0f) & (v < 0.0f) & (w < 0.0f))"}});
+  return of("exclusive-edges", "a ray through an edge meets neither of its triangles",
+            {{"triangle.h", "(least >= 0.0f) | (most <= 0.0f)", "(least > 0.0f) | (most < 0.0f)"}});
 }
 
 mistake short_stack() {
@@ -143,7 +142,10 @@ mistake short_stack() {
       "short-stack", "what does not fit on a stack of 4 is left out",
       {{"search_narrow.h", "if (b != FACET_ABSENT) stack",
         "if (b != FACET_ABSENT && top < 4) stack"},
-       {"search_wide.h", "int k = (*top)++;", "if (*top >= 4) continue;\n    int k = (*top)++;"}});
+       {"search_wide.h", "stack[(*top)++] = max(a, b);",
+        "if (*top < 4) stack[(*top)++] = max(a, b);"},
+       {"search_wide.h", "int k = (*top)++;", "if (*top >= 4) continue;\n    int k = (*top)++;"},
+       {"search_wide.h", "stack[(*top)++] = next;", "if (*top < 4) stack[(*top)++] = next;"}});
 }
 
 mistake inclusive_edges() {
