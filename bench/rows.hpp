@@ -20,4 +20,7 @@ void add_pictures_row(CLI::App& app);
 /// Time against triangles, with a tree, without one, and by the serial reference.
 void add_growth_row(CLI::App& app);
 
+/// The device's radix sort against std::sort and TBB.
+void add_sort_row(CLI::App& app);
+
 }  // namespace facet::bench

@@ -85,4 +85,15 @@ std::size_t device::profiling_timer_resolution() const {
   return ask<CL_DEVICE_PROFILING_TIMER_RESOLUTION>(handle_);
 }
 
+std::uint32_t device::nvidia_compute_capability() const {
+  if (!has_extension("cl_nv_device_attribute_query")) return 0;
+  const auto asked = [&](cl_device_info what) {
+    cl_uint value = 0;
+    const cl_int result = clGetDeviceInfo(handle_, what, sizeof value, &value, nullptr);
+    return result == CL_SUCCESS ? value : 0;
+  };
+  // CL_DEVICE_COMPUTE_CAPABILITY_MAJOR_NV and _MINOR_NV (cl_nv_device_attribute_query).
+  return asked(0x4000) * 10 + asked(0x4001);
+}
+
 }  // namespace facet::runtime

@@ -57,6 +57,8 @@ class device {
   bool has_double() const;
   bool has_out_of_order_queues() const;
   std::size_t profiling_timer_resolution() const;  ///< ns a tick
+  /// 90 for sm_90, and so on; 0 where the driver is not NVIDIA's.
+  std::uint32_t nvidia_compute_capability() const;
 
   native::device get() const noexcept { return handle_; }
   friend bool operator==(const device&, const device&) = default;

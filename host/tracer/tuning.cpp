@@ -13,15 +13,9 @@ std::string tuning::flags() const {
 tuning tuning_for(const runtime::device& d) {
   tuning t;
   t.correctly_rounded = d.has_correctly_rounded_divide_sqrt();
-  if (d.is_gpu()) {
-    t.hardware_minmax = true;
-    t.sort_tiles = 1u << 14;
-    t.sort_tile_least = 256;
-  } else {
-    // A few tiles for each core: PoCL runs a tile on one core from start to end.
-    t.sort_tiles = 4 * d.max_compute_units();
-    t.wide_layout = true;
-  }
+  t.hardware_minmax = d.is_gpu();
+  t.wide_layout = !d.is_gpu();
+  t.sort = sort_tuning_for(d);
   return t;
 }
 

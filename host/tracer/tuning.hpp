@@ -5,6 +5,7 @@
 #include <string>
 
 #include "runtime/device.hpp"
+#include "tracer/sort_tuning.hpp"
 
 namespace facet::tracer {
 
@@ -13,12 +14,11 @@ struct tuning {
   std::uint32_t render_group_width = 8,
                 render_group_height = 8;  ///< the render kernel's work-group
   std::uint32_t leaf_size = 4;            ///< triangles a leaf holds at most, 1 to 16
-  std::uint32_t sort_tiles = 64;          ///< tiles a radix pass is cut into, at most
-  std::uint32_t sort_tile_least = 4096;   ///< keys a tile holds at least
-  bool image_geometry = false;            ///< what --geometry auto means
-  bool wide_layout = false;               ///< what layout_kind::automatic means, but for images
-  bool hardware_minmax = false;           ///< cl/device.h
-  bool correctly_rounded = false;         ///< the device can be asked for exact divide and sqrt
+  sort_tuning sort;
+  bool image_geometry = false;     ///< what --geometry auto means
+  bool wide_layout = false;        ///< what layout_kind::automatic means, but for images
+  bool hardware_minmax = false;    ///< cl/device.h
+  bool correctly_rounded = false;  ///< the device can be asked for exact divide and sqrt
 
   std::string more_flags;  ///< as options::compiler_flags has them
 

@@ -39,8 +39,15 @@ for target in spir64-unknown-unknown nvptx64-nvidia-nvcl amdgcn-amd-amdhsa; do
   # What render.cl is made of, asked one by one: with everything, and with all left out.
   echo "$target code probe.cl"
   echo "$target code probe.cl${derived[*]/#/ -D}"
-  for kernel in morton.cl levels.cl tree.cl "radix_sort.cl -DKEY=uint" "radix_sort.cl -DKEY=ulong"; do
+  for kernel in morton.cl levels.cl tree.cl look_back.cl; do
     echo "$target code $kernel"
+  done
+  for key in uint ulong; do
+    for kernel in radix_counts.cl radix_sort.cl "radix_sort.cl -DFACET_LOOK_BACK" \
+        "radix_sort.cl -DFACET_LOOK_BACK -DFACET_SORT_BESIDE -DGROUP=512 -DITEMS=3 -DCOPIES=2"; do
+      echo "$target code $kernel -DKEY=$key"
+    done
+    echo "$target code radix_serial.cl -DKEY_BITS=$([[ $key == uint ]] && echo 32 || echo 64)"
   done
 done > "$jobs"
 for ((set = 0; set < 1 << ${#derived[@]}; ++set)); do
@@ -54,6 +61,15 @@ for ((set = 0; set < 1 << ${#derived[@]}; ++set)); do
     done
   done
 done >> "$jobs"
+# By warps, where PTX can be written: instructions of sm_70.
+for ranking in "" " -DFACET_SORT_MATCH"; do
+  for key in uint ulong; do
+    for more in "" " -DFACET_LOOK_BACK" " -DFACET_LOOK_BACK -DFACET_SORT_BESIDE"; do
+      echo "nvptx64-nvidia-nvcl code radix_sort.cl -DFACET_PTX -DGROUP=384 -DITEMS=10 -DKEY=$key$ranking$more"
+    done
+  done
+done >> "$jobs"
+echo "nvptx64-nvidia-nvcl code look_back.cl -DFACET_PTX" >> "$jobs"
 
 compile() {
   local clang=$1 cl=$2 target=$3 as=$4 kernel=$5
@@ -62,6 +78,7 @@ compile() {
   case $target in
     spir64*) emit=(-emit-llvm -c) ;;
     x86_64*) emit=(-march=skylake-avx512 -S) ;;
+    nvptx*) emit+=(-Xclang -target-cpu -Xclang sm_70) ;;
     amdgcn*) emit=(-mcpu=gfx900 -nogpulib -c) ;;
   esac
   [[ $as == code ]] || emit=(-fsyntax-only -nogpulib)

@@ -1,0 +1,70 @@
+// Where a tile's keys of each digit go, counted before they go (cl/radix_sort.cl without look-back): each
+// tile counts its digits, and the counts, digit after digit and tile after tile, become the sums of
+// those before them. The sums are made in two steps of CHUNKS groups each.
+#include "radix_digit.h"
+
+#define CHUNKS 256u
+#define ADDERS 256
+
+// counts[digit * tiles + tile]: how many keys of the tile have the digit.
+__kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void count_digits(
+    __global const KEY* keys, __global uint* counts, uint count, uint shift, uint mask) {
+  __local uint own[256];
+  const uint lid = (uint)get_local_id(0), tile = (uint)get_group_id(0);
+  for (uint d = lid; d < DIGITS; d += GROUP) own[d] = 0u;
+  barrier(CLK_LOCAL_MEM_FENCE);
+  const uint base = tile * TILE, held = min(count - base, (uint)TILE);
+  for (uint i = lid; i < held; i += GROUP) atomic_inc(&own[digit_of(keys[base + i], shift, mask)]);
+  barrier(CLK_LOCAL_MEM_FENCE);
+  for (uint d = lid; d < DIGITS; d += GROUP) counts[(size_t)d * get_num_groups(0) + tile] = own[d];
+}
+
+// The sum of what the work-items before this one give, of ADDERS.
+static inline uint sum_before(uint lid, uint value, __local uint* sums) {
+  sums[lid] = value;
+  barrier(CLK_LOCAL_MEM_FENCE);
+  uint up_to = value;
+  for (uint step = 1u; step < ADDERS; step *= 2u) {
+    up_to += lid >= step ? sums[lid - step] : 0u;
+    barrier(CLK_LOCAL_MEM_FENCE);
+    sums[lid] = up_to;
+    barrier(CLK_LOCAL_MEM_FENCE);
+  }
+  return up_to - value;
+}
+
+static inline uint chunk_length(uint length) { return (length + CHUNKS - 1u) / CHUNKS; }
+
+// totals[chunk]: the sum of a group's part of counts[0 .. length).
+__kernel __attribute__((reqd_work_group_size(ADDERS, 1, 1))) void sum_chunks(
+    __global const uint* counts, __global uint* totals, uint length) {
+  __local uint sums[ADDERS];
+  const uint lid = (uint)get_local_id(0), chunk = (uint)get_group_id(0);
+  const uint begin = min(chunk * chunk_length(length), length);
+  const uint end = min(begin + chunk_length(length), length);
+  uint sum = 0u;
+  for (uint i = begin + lid; i < end; i += ADDERS) sum += counts[i];
+  const uint before = sum_before(lid, sum, sums);
+  if (lid == ADDERS - 1u) totals[chunk] = before + sum;
+}
+
+// counts[i] becomes the sum of those before it.
+__kernel __attribute__((reqd_work_group_size(ADDERS, 1, 1))) void scan_chunks(
+    __global uint* counts, __global const uint* totals, uint length) {
+  __local uint sums[ADDERS];
+  __local uint running[1];
+  const uint lid = (uint)get_local_id(0), chunk = (uint)get_group_id(0);
+  const uint before_chunk = sum_before(lid, totals[lid], sums);
+  if (lid == chunk) running[0] = before_chunk;
+  barrier(CLK_LOCAL_MEM_FENCE);
+  const uint begin = min(chunk * chunk_length(length), length);
+  const uint end = min(begin + chunk_length(length), length);
+  uint sum = running[0];
+  for (uint i = begin; i < end; i += ADDERS) {
+    const uint own = i + lid < end ? counts[i + lid] : 0u;
+    const uint before = sum_before(lid, own, sums);
+    if (i + lid < end) counts[i + lid] = sum + before;
+    sum += sums[ADDERS - 1];
+    barrier(CLK_LOCAL_MEM_FENCE);
+  }
+}

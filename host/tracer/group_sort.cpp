@@ -1,0 +1,203 @@
+#include "tracer/group_sort.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "tracer/kernels.hpp"
+#include "tracer/look_back.hpp"
+
+namespace facet::tracer {
+namespace {
+
+constexpr unsigned digit_bits = 8;
+constexpr std::uint32_t digits = 1u << digit_bits;
+constexpr std::uint32_t chunks = 256, adders = 256;  // cl/radix_counts.cl
+
+template <class Key>
+std::uint32_t items_of(const sort_tuning& t) {
+  return sizeof(Key) == 4 ? t.items_32 : t.items_64;
+}
+
+template <class Key>
+std::string options_of(const tuning& t, bool looks_back) {
+  std::string o = t.flags() + warp_options(t.sort);
+  o += sizeof(Key) == 4 ? " -DKEY=uint" : " -DKEY=ulong";
+  o += " -DGROUP=" + std::to_string(t.sort.group);
+  o += " -DITEMS=" + std::to_string(items_of<Key>(t.sort));
+  o += " -DCOPIES=" + std::to_string(t.sort.histogram_copies);
+  if (t.sort.values_beside) o += " -DFACET_SORT_BESIDE";
+  if (looks_back) o += " -DFACET_LOOK_BACK";
+  if (t.sort.registers != 0) o += " -cl-nv-maxrregcount=" + std::to_string(t.sort.registers);
+  return o;
+}
+
+/// Words of local memory that `scatter` needs (LOCAL_WORDS in cl/radix_sort.cl).
+template <class Key>
+std::uint32_t local_words(const sort_tuning& t) {
+  const std::uint32_t tile = t.group * items_of<Key>(t);
+  const std::uint32_t key_words = sizeof(Key) / sizeof(std::uint32_t);
+  const bool has_warps = t.ranking != sort_ranking::portable;
+  const std::uint32_t ranking = has_warps ? t.group / 32 * digits : std::max(16 * t.group, tile);
+  const std::uint32_t pool = std::max(tile * (key_words + t.values_beside), ranking);
+  return pool + digits + 2 * (has_warps ? t.group / 32 : t.group);
+}
+
+bool looks_back(const runtime::queue& q, const runtime::source_tree& kernels, const tuning& t) {
+  if (t.sort.look_back == look_back_use::if_proven) return has_look_back(q, kernels, t);
+  return t.sort.look_back == look_back_use::always;
+}
+
+std::uint32_t mask_of(unsigned bits, unsigned shift) {
+  return (1u << std::min(digit_bits, bits - shift)) - 1;
+}
+
+runtime::nd_range<1> in_groups(std::size_t groups, std::uint32_t group) {
+  return {runtime::range<1>(groups * group), runtime::range<1>(group)};
+}
+
+}  // namespace
+
+template <class Key>
+group_sort<Key>::group_sort(runtime::queue q, const runtime::source_tree& kernels, const tuning& t)
+    : queue_(q),
+      tuning_(t.sort),
+      looks_back_(looks_back(q, kernels, t)),
+      program_(compiled(q, kernels, "radix_sort.cl", options_of<Key>(t, looks_back_))),
+      scatter_(program_.get_kernel("scatter")),
+      bins_(sizeof(Key) * digits),
+      counters_(sizeof(Key)),
+      totals_(chunks) {
+  if (looks_back_) {
+    histogram_ = program_.get_kernel("histogram");
+    return;
+  }
+  counting_ = compiled(q, kernels, "radix_counts.cl", options_of<Key>(t, false));
+  count_ = counting_->get_kernel("count_digits");
+  sum_ = counting_->get_kernel("sum_chunks");
+  scan_ = counting_->get_kernel("scan_chunks");
+}
+
+template <class Key>
+double group_sort<Key>::compile_ms() const {
+  return program_.build_ms() + (counting_ ? counting_->build_ms() : 0);
+}
+
+template <class Key>
+std::uint32_t group_sort<Key>::tile_size(const sort_tuning& t) {
+  return t.group * items_of<Key>(t);
+}
+
+template <class Key>
+std::uint64_t group_sort<Key>::scratch_bytes(std::uint32_t count, const sort_tuning& t) {
+  const std::uint64_t tiles = (count + std::uint64_t(tile_size(t)) - 1) / tile_size(t);
+  const bool may_look_back = t.look_back != look_back_use::never;
+  const std::uint64_t words =
+      (may_look_back ? 2 : 1) * tiles * digits + sizeof(Key) * (digits + 1) + chunks;
+  return count * (sizeof(Key) + sizeof(std::uint32_t)) + words * sizeof(std::uint32_t);
+}
+
+template <class Key>
+std::vector<sort_step> group_sort<Key>::sort(const sort_request<Key>& r) {
+  const std::uint32_t tile = tile_size(tuning_), tiles = (r.count + tile - 1) / tile;
+  hold(keys_, r.count);
+  hold(values_, r.count);
+  std::vector<sort_step> steps;
+  if (looks_back_)
+    sort_looking_back(r, tiles, steps);
+  else
+    sort_counting(r, tiles, steps);
+  return steps;
+}
+
+template <class Key>
+void group_sort<Key>::sort_looking_back(const sort_request<Key>& r, std::uint32_t tiles,
+                                        std::vector<sort_step>& steps) {
+  for (auto& words : words_) hold(words, std::size_t(tiles) * digits);
+  if (!std::exchange(is_clean_, false))
+    steps.push_back({"fill", queue_.submit([&](runtime::handler& h) {
+                       h.fill(runtime::accessor{bins_, h, runtime::write_only}, 0u);
+                     })});
+  const std::uint32_t needed = (r.count + tuning_.group - 1) / tuning_.group;
+  steps.push_back({"histogram", queue_.submit([&](runtime::handler& h) {
+                     const runtime::accessor keys{r.keys, h, runtime::read_only};
+                     const runtime::accessor bins{bins_, h, runtime::read_write};
+                     const runtime::accessor words{words_[0], h, runtime::read_write};
+                     const runtime::accessor counters{counters_, h, runtime::read_write};
+                     const runtime::local_accessor<std::uint32_t> local(
+                         sizeof(Key) * digits * tuning_.histogram_copies, h);
+                     h.set_args(keys, bins, words, counters, r.count, r.bits, local);
+                     h.parallel_for(
+                         in_groups(std::min(needed, tuning_.histogram_groups), tuning_.group),
+                         *histogram_);
+                   })});
+  for (unsigned shift = 0; shift < r.bits; shift += digit_bits) {
+    const unsigned pass = shift / digit_bits;
+    const std::uint32_t is_first_order = r.is_first_order && pass == 0;
+    steps.push_back({"scatter", queue_.submit([&](runtime::handler& h) {
+                       const runtime::accessor keys{r.keys, h, runtime::read_only};
+                       const runtime::accessor values{r.values, h, runtime::read_only};
+                       const runtime::accessor keys_out{keys_, h, runtime::write_only};
+                       const runtime::accessor values_out{values_, h, runtime::write_only};
+                       const runtime::accessor bins{bins_, h, runtime::read_write};
+                       const runtime::accessor words{words_[pass % 2], h, runtime::read_write};
+                       const runtime::accessor next{words_[1 - pass % 2], h, runtime::write_only};
+                       const runtime::accessor counters{counters_, h, runtime::read_write};
+                       h.set_args(
+                           keys, values, keys_out, values_out, bins, words, next, counters, r.count,
+                           shift, mask_of(r.bits, shift), is_first_order,
+                           runtime::local_accessor<std::uint32_t>(local_words<Key>(tuning_), h));
+                       h.parallel_for(in_groups(tiles, tuning_.group), scatter_);
+                     })});
+    std::swap(r.keys, keys_);
+    std::swap(r.values, values_);
+  }
+  is_clean_ = true;
+}
+
+template <class Key>
+void group_sort<Key>::sort_counting(const sort_request<Key>& r, std::uint32_t tiles,
+                                    std::vector<sort_step>& steps) {
+  const std::uint32_t length = tiles * digits;
+  hold(counts_, length);
+  for (unsigned shift = 0; shift < r.bits; shift += digit_bits) {
+    const std::uint32_t mask = mask_of(r.bits, shift);
+    const std::uint32_t is_first_order = r.is_first_order && shift == 0;
+    steps.push_back({"count_digits", queue_.submit([&](runtime::handler& h) {
+                       const runtime::accessor keys{r.keys, h, runtime::read_only};
+                       const runtime::accessor counts{counts_, h, runtime::write_only};
+                       h.set_args(keys, counts, r.count, shift, mask);
+                       h.parallel_for(in_groups(tiles, tuning_.group), *count_);
+                     })});
+    steps.push_back({"sum_chunks", queue_.submit([&](runtime::handler& h) {
+                       const runtime::accessor counts{counts_, h, runtime::read_only};
+                       const runtime::accessor totals{totals_, h, runtime::write_only};
+                       h.set_args(counts, totals, length);
+                       h.parallel_for(in_groups(chunks, adders), *sum_);
+                     })});
+    steps.push_back({"scan_chunks", queue_.submit([&](runtime::handler& h) {
+                       const runtime::accessor counts{counts_, h, runtime::read_write};
+                       const runtime::accessor totals{totals_, h, runtime::read_only};
+                       h.set_args(counts, totals, length);
+                       h.parallel_for(in_groups(chunks, adders), *scan_);
+                     })});
+    steps.push_back({"scatter", queue_.submit([&](runtime::handler& h) {
+                       const runtime::accessor keys{r.keys, h, runtime::read_only};
+                       const runtime::accessor values{r.values, h, runtime::read_only};
+                       const runtime::accessor keys_out{keys_, h, runtime::write_only};
+                       const runtime::accessor values_out{values_, h, runtime::write_only};
+                       const runtime::accessor places{counts_, h, runtime::read_only};
+                       h.set_args(
+                           keys, values, keys_out, values_out, places, r.count, shift, mask,
+                           is_first_order,
+                           runtime::local_accessor<std::uint32_t>(local_words<Key>(tuning_), h));
+                       h.parallel_for(in_groups(tiles, tuning_.group), scatter_);
+                     })});
+    std::swap(r.keys, keys_);
+    std::swap(r.values, values_);
+  }
+}
+
+template class group_sort<std::uint32_t>;
+template class group_sort<std::uint64_t>;
+
+}  // namespace facet::tracer

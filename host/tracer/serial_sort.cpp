@@ -1,0 +1,144 @@
+#include "tracer/serial_sort.hpp"
+
+#include <algorithm>
+
+#include "tracer/kernels.hpp"
+#include "tracer/launch.hpp"
+
+namespace facet::tracer {
+namespace {
+
+constexpr unsigned widest_digit = 11;
+constexpr std::uint32_t digits = 1u << widest_digit;
+
+unsigned passes_of(unsigned bits) { return (bits + widest_digit - 1) / widest_digit; }
+
+}  // namespace
+
+/// One pass of a sort. Pass 0 reads keys and values, the others the records that the one before
+/// wrote; the last one writes keys and values.
+template <class Key>
+struct serial_sort<Key>::cut {
+  std::uint32_t tile, tiles;
+  unsigned pass, passes;
+  std::uint32_t shift, mask;
+
+  bool is_first() const { return pass == 0; }
+  bool is_last() const { return pass + 1 == passes; }
+  std::size_t from() const { return (pass + 1) % 2; }
+  std::size_t to() const { return pass % 2; }
+  runtime::nd_range<1> range() const { return {runtime::range<1>(tiles), runtime::range<1>(1)}; }
+};
+
+template <class Key>
+serial_sort<Key>::serial_sort(runtime::queue q, const runtime::source_tree& kernels,
+                              const tuning& t)
+    : queue_(q),
+      tuning_(t.sort),
+      program_(compiled(q, kernels, "radix_serial.cl",
+                        t.flags() + " -DKEY_BITS=" + std::to_string(8 * sizeof(Key)))),
+      count_keys_(program_.get_kernel("count_keys")),
+      count_records_(program_.get_kernel("count_records")),
+      scan_(program_.get_kernel("scan_counts")),
+      scatter_keys_(program_.get_kernel("scatter_keys")),
+      scatter_records_(program_.get_kernel("scatter_records")),
+      scatter_apart_(program_.get_kernel("scatter_apart")),
+      take_apart_(program_.get_kernel("take_apart")) {
+  // key << 32 | value, or ulong2 (cl/radix_serial.cl).
+  static_assert(sizeof(record) == 2 * sizeof(Key));
+}
+
+template <class Key>
+std::uint32_t serial_sort<Key>::tile_size(std::uint32_t count, const sort_tuning& t) {
+  return std::max(t.tile_least, (count + t.tiles - 1) / t.tiles);
+}
+
+template <class Key>
+std::uint64_t serial_sort<Key>::scratch_bytes(std::uint32_t count, const sort_tuning& t) {
+  return 2 * std::uint64_t(count) * sizeof(record) +
+         std::uint64_t(t.tiles) * digits * sizeof(std::uint32_t);
+}
+
+template <class Key>
+std::vector<sort_step> serial_sort<Key>::sort(const sort_request<Key>& r) {
+  const unsigned passes = passes_of(r.bits), width = (r.bits + passes - 1) / passes;
+  cut c{};
+  c.passes = passes;
+  c.tile = tile_size(r.count, tuning_);
+  c.tiles = (r.count + c.tile - 1) / c.tile;
+  hold(counts_, std::size_t(c.tiles) * digits);
+  hold(records_[0], r.count);
+  if (passes > 2) hold(records_[1], r.count);
+  std::vector<sort_step> steps;
+  for (c.pass = 0; c.pass < passes; ++c.pass) {
+    c.shift = c.pass * width;
+    c.mask = (1u << std::min(width, r.bits - c.shift)) - 1;
+    count(r, c, steps);
+    scatter(r, c, steps);
+  }
+  return steps;
+}
+
+template <class Key>
+void serial_sort<Key>::count(const sort_request<Key>& r, const cut& c,
+                             std::vector<sort_step>& steps) {
+  steps.push_back({"count", queue_.submit([&](runtime::handler& h) {
+                     const runtime::accessor counts{counts_, h, runtime::write_only};
+                     const auto launch = [&](const auto& from, const runtime::kernel& kernel) {
+                       const runtime::accessor in{from, h, runtime::read_only};
+                       h.set_args(in, counts, r.count, c.tile, c.shift, c.mask);
+                       h.parallel_for(c.range(), kernel);
+                     };
+                     if (c.is_first())
+                       launch(r.keys, count_keys_);
+                     else
+                       launch(records_[c.from()], count_records_);
+                   })});
+  steps.push_back({"scan", queue_.submit([&](runtime::handler& h) {
+                     const runtime::accessor counts{counts_, h, runtime::read_write};
+                     h.set_args(counts, c.tiles);
+                     h.single_task(scan_);
+                   })});
+}
+
+template <class Key>
+void serial_sort<Key>::scatter(const sort_request<Key>& r, const cut& c,
+                               std::vector<sort_step>& steps) {
+  steps.push_back({"scatter", queue_.submit([&](runtime::handler& h) {
+                     const runtime::accessor places{counts_, h, runtime::read_only};
+                     if (c.is_first()) {
+                       const std::uint32_t is_first_order = r.is_first_order;
+                       const runtime::accessor keys{r.keys, h, runtime::read_only};
+                       const runtime::accessor values{r.values, h, runtime::read_only};
+                       const runtime::accessor out{records_[c.to()], h, runtime::write_only};
+                       h.set_args(keys, values, places, out, r.count, c.tile, c.shift, c.mask,
+                                  is_first_order);
+                       h.parallel_for(c.range(), scatter_keys_);
+                       return;
+                     }
+                     const runtime::accessor in{records_[c.from()], h, runtime::read_only};
+                     if (c.is_last()) {
+                       const runtime::accessor keys{r.keys, h, runtime::write_only};
+                       const runtime::accessor values{r.values, h, runtime::write_only};
+                       h.set_args(in, places, keys, values, r.count, c.tile, c.shift, c.mask);
+                       h.parallel_for(c.range(), scatter_apart_);
+                     } else {
+                       const runtime::accessor out{records_[c.to()], h, runtime::write_only};
+                       h.set_args(in, places, out, r.count, c.tile, c.shift, c.mask);
+                       h.parallel_for(c.range(), scatter_records_);
+                     }
+                   })});
+  if (!c.is_first() || !c.is_last()) return;
+  steps.push_back({"take_apart", queue_.submit([&](runtime::handler& h) {
+                     const runtime::accessor in{records_[c.to()], h, runtime::read_only};
+                     const runtime::accessor keys{r.keys, h, runtime::write_only};
+                     const runtime::accessor values{r.values, h, runtime::write_only};
+                     h.set_args(in, keys, values, r.count, c.tile);
+                     h.parallel_for(c.range(), take_apart_);
+                   })});
+}
+
+template class serial_sort<std::uint32_t>;
+template class serial_sort<std::uint64_t>;
+
+}  // namespace facet::tracer

@@ -1,0 +1,44 @@
+// How the radix sort is cut and by which means it works: what its speed, and nothing else, depends
+// on.
+#pragma once
+
+#include <cstdint>
+
+#include "runtime/device.hpp"
+
+namespace facet::tracer {
+
+/// Who sorts a tile: a work-group together (cl/radix_sort.cl), or a work-item alone, which is what
+/// a CPU does best (cl/radix_serial.cl).
+enum class sort_face { group, serial };
+
+/// How a work-group ranks its keys (cl/tile_rank.h): anywhere, or by PTX with votes on each bit or
+/// with match.any.
+enum class sort_ranking { portable, ballot, match };
+
+/// Whether groups tell each other their counts while they run (cl/look_back.h).
+enum class look_back_use { if_proven, always, never };
+
+struct sort_tuning {
+  sort_face face = sort_face::serial;
+
+  // Of work-groups.
+  sort_ranking ranking = sort_ranking::portable;
+  look_back_use look_back = look_back_use::if_proven;
+  std::uint32_t group = 256;                 ///< work-items, at least 256
+  std::uint32_t items_32 = 8, items_64 = 6;  ///< keys a work-item, of 32 and of 64 bits
+  std::uint32_t window = 4;                  ///< words that look-back asks for at once
+  bool values_beside = false;                ///< in local memory, beside the keys
+  std::uint32_t registers = 0;  ///< a work-item has at most; 0: as NVIDIA's compiler likes
+  std::uint32_t histogram_groups = 64;
+  std::uint32_t histogram_copies = 1;  ///< of each counter
+
+  // Of single work-items.
+  std::uint32_t tiles = 64;         ///< tiles a pass is cut into, at most
+  std::uint32_t tile_least = 4096;  ///< keys a tile holds at least
+};
+
+/// Measured defaults by kind of device (`facet_bench sort`).
+sort_tuning sort_tuning_for(const runtime::device& d);
+
+}  // namespace facet::tracer

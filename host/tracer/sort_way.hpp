@@ -1,0 +1,43 @@
+// What a radix sort is asked for, and what can do it: the two faces of tracer/radix_sort.hpp.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "runtime/runtime.hpp"
+#include "tracer/tuning.hpp"
+
+namespace facet::tracer {
+
+/// A command of a sort, for who wants to know its time.
+struct sort_step {
+  const char* kernel;
+  runtime::event done;
+};
+
+/// What a sort is asked for.
+template <class Key>
+struct sort_request {
+  runtime::buffer<Key>& keys;
+  runtime::buffer<std::uint32_t>& values;
+  std::uint32_t count;
+  unsigned bits;        ///< that count, the lowest; at least 1
+  bool is_first_order;  ///< values are 0, 1, 2, ... and not read
+};
+
+/// tracer/group_sort.hpp or tracer/serial_sort.hpp.
+template <class Key>
+class sort_way {
+ public:
+  virtual ~sort_way() = default;
+  virtual std::vector<sort_step> sort(const sort_request<Key>& r) = 0;
+  virtual double compile_ms() const = 0;
+};
+
+/// Room for `count` elements: what there is, or new.
+template <class T>
+void hold(runtime::buffer<T>& b, std::size_t count) {
+  if (b.size() < count) b = runtime::buffer<T>(count);
+}
+
+}  // namespace facet::tracer
