@@ -30,6 +30,7 @@ SECTIONS = {
     "facet-bench-exactness": (1, "exactness", "What exactness costs", report_benches.exactness),
     "facet-bench-trace": (1, "tracing", "Tracing, beside a peer", report_benches.trace),
     "facet-bench-pictures": (1, "whole-pictures", "Whole pictures", report_benches.pictures),
+    "facet-bench-sort": (1, "sorting", "Sorting, beside peers", report_benches.sort),
     "facet-bench-reference": (1, "reference", "The serial reference, beside a peer",
                               report_benches.reference),
 }

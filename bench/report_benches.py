@@ -88,8 +88,8 @@ def spread_of(value, samples):
     return f"{number(value)} {ends(number(min(samples)), number(max(samples)))}"
 
 
-def _rates(node):
-    ends = [node[f"mrays_per_s{end}"].get(float) for end in ("", "_least", "_most")]
+def _rates(node, unit="mrays_per_s"):
+    ends = [node[f"{unit}{end}"].get(float) for end in ("", "_least", "_most")]
     return spread_of(ends[0], ends[1:])
 
 
@@ -159,3 +159,18 @@ def pictures(root, _):
                    "#pixels in all", "#off, against float", "#off, against double"), rows),
             note("Pixels that are off are at edges, if nothing else is said: a ray moved by a little "
                  "meets other surfaces.")]
+
+
+def sort(root, _):
+    def peer(r, name):
+        found = r.find(name)
+        return (_rates(found, "mkeys_per_s"), _ratio(found["ratio"])) if found else ("\N{EN DASH}",) * 2
+
+    rows = [(number(r["count"].get(int)), str(r["key_bits"].get(int)), str(r["bits"].get(int)),
+             _rates(r["device"], "mkeys_per_s"), _rates(r["wall"], "mkeys_per_s"), *peer(r, "tbb"),
+             *peer(r, "std")) for r in root["results"].items()]
+    name = root["peer"]["name"].get(str) if root.find("peer") else "TBB, left out"
+    return [table("Mkeys/s with 32-bit values, median (least\N{EN DASH}most), by the device's events and by the "
+                  f"host's clock; how many times as fast it is by the host's clock as {name}, and as "
+                  "std::sort", ("#keys", "#bits of a key", "#sorted by", "#device", "#host's clock", "#TBB",
+                                "#ratio", "#std::sort", "#ratio to it"), rows)]

@@ -44,4 +44,14 @@ static inline void fetch_lines(__global const void* p, uint bytes) {
 static inline void fetch_lines(__global const void* p, uint bytes) {}
 #endif
 
+// Stores a vector that will not be read soon: past the caches, where the compiler can be asked for that.
+#ifdef __has_builtin
+#if __has_builtin(__builtin_nontemporal_store)
+#define STORE_PAST_CACHES(vector, pointer) __builtin_nontemporal_store(vector, pointer)
+#endif
+#endif
+#ifndef STORE_PAST_CACHES
+#define STORE_PAST_CACHES(vector, pointer) (*(pointer) = (vector))
+#endif
+
 #endif

@@ -1,9 +1,8 @@
 // Where a tile's keys of each digit go, counted before they go (cl/radix_sort.cl without look-back): each
 // tile counts its digits, and the counts, digit after digit and tile after tile, become the sums of
-// those before them. The sums are made in two steps of CHUNKS groups each.
+// those before them: in two steps, of a group for each of at most ADDERS chunks of them.
 #include "radix_digit.h"
 
-#define CHUNKS 256u
 #define ADDERS 256
 
 // counts[digit * tiles + tile]: how many keys of the tile have the digit.
@@ -33,15 +32,13 @@ static inline uint sum_before(uint lid, uint value, __local uint* sums) {
   return up_to - value;
 }
 
-static inline uint chunk_length(uint length) { return (length + CHUNKS - 1u) / CHUNKS; }
-
 // totals[chunk]: the sum of a group's part of counts[0 .. length).
 __kernel __attribute__((reqd_work_group_size(ADDERS, 1, 1))) void sum_chunks(
-    __global const uint* counts, __global uint* totals, uint length) {
+    __global const uint* counts, __global uint* totals, uint length,
+    uint chunk_length) {
   __local uint sums[ADDERS];
   const uint lid = (uint)get_local_id(0), chunk = (uint)get_group_id(0);
-  const uint begin = min(chunk * chunk_length(length), length);
-  const uint end = min(begin + chunk_length(length), length);
+  const uint begin = chunk * chunk_length, end = min(begin + chunk_length, length);
   uint sum = 0u;
   for (uint i = begin + lid; i < end; i += ADDERS) sum += counts[i];
   const uint before = sum_before(lid, sum, sums);
@@ -50,15 +47,15 @@ __kernel __attribute__((reqd_work_group_size(ADDERS, 1, 1))) void sum_chunks(
 
 // counts[i] becomes the sum of those before it.
 __kernel __attribute__((reqd_work_group_size(ADDERS, 1, 1))) void scan_chunks(
-    __global uint* counts, __global const uint* totals, uint length) {
+    __global uint* counts, __global const uint* totals, uint length,
+    uint chunk_length) {
   __local uint sums[ADDERS];
   __local uint running[1];
   const uint lid = (uint)get_local_id(0), chunk = (uint)get_group_id(0);
-  const uint before_chunk = sum_before(lid, totals[lid], sums);
+  const uint before_chunk = sum_before(lid, lid < get_num_groups(0) ? totals[lid] : 0u, sums);
   if (lid == chunk) running[0] = before_chunk;
   barrier(CLK_LOCAL_MEM_FENCE);
-  const uint begin = min(chunk * chunk_length(length), length);
-  const uint end = min(begin + chunk_length(length), length);
+  const uint begin = chunk * chunk_length, end = min(begin + chunk_length, length);
   uint sum = running[0];
   for (uint i = begin; i < end; i += ADDERS) {
     const uint own = i + lid < end ? counts[i + lid] : 0u;

@@ -11,7 +11,8 @@ namespace {
 
 constexpr unsigned digit_bits = 8;
 constexpr std::uint32_t digits = 1u << digit_bits;
-constexpr std::uint32_t chunks = 256, adders = 256;  // cl/radix_counts.cl
+constexpr std::uint32_t adders = 256;  // a group, and chunks at most (cl/radix_counts.cl)
+constexpr std::uint32_t chunk_least = 2048;
 
 template <class Key>
 std::uint32_t items_of(const sort_tuning& t) {
@@ -66,7 +67,7 @@ group_sort<Key>::group_sort(runtime::queue q, const runtime::source_tree& kernel
       scatter_(program_.get_kernel("scatter")),
       bins_(sizeof(Key) * digits),
       counters_(sizeof(Key)),
-      totals_(chunks) {
+      totals_(adders) {
   if (looks_back_) {
     histogram_ = program_.get_kernel("histogram");
     return;
@@ -92,7 +93,7 @@ std::uint64_t group_sort<Key>::scratch_bytes(std::uint32_t count, const sort_tun
   const std::uint64_t tiles = (count + std::uint64_t(tile_size(t)) - 1) / tile_size(t);
   const bool may_look_back = t.look_back != look_back_use::never;
   const std::uint64_t words =
-      (may_look_back ? 2 : 1) * tiles * digits + sizeof(Key) * (digits + 1) + chunks;
+      (may_look_back ? 2 : 1) * tiles * digits + sizeof(Key) * (digits + 1) + adders;
   return count * (sizeof(Key) + sizeof(std::uint32_t)) + words * sizeof(std::uint32_t);
 }
 
@@ -159,6 +160,8 @@ void group_sort<Key>::sort_counting(const sort_request<Key>& r, std::uint32_t ti
                                     std::vector<sort_step>& steps) {
   const std::uint32_t length = tiles * digits;
   hold(counts_, length);
+  const std::uint32_t chunk = std::max(chunk_least, (length + adders - 1) / adders);
+  const std::uint32_t chunks = (length + chunk - 1) / chunk;
   for (unsigned shift = 0; shift < r.bits; shift += digit_bits) {
     const std::uint32_t mask = mask_of(r.bits, shift);
     const std::uint32_t is_first_order = r.is_first_order && shift == 0;
@@ -171,13 +174,13 @@ void group_sort<Key>::sort_counting(const sort_request<Key>& r, std::uint32_t ti
     steps.push_back({"sum_chunks", queue_.submit([&](runtime::handler& h) {
                        const runtime::accessor counts{counts_, h, runtime::read_only};
                        const runtime::accessor totals{totals_, h, runtime::write_only};
-                       h.set_args(counts, totals, length);
+                       h.set_args(counts, totals, length, chunk);
                        h.parallel_for(in_groups(chunks, adders), *sum_);
                      })});
     steps.push_back({"scan_chunks", queue_.submit([&](runtime::handler& h) {
                        const runtime::accessor counts{counts_, h, runtime::read_write};
                        const runtime::accessor totals{totals_, h, runtime::read_only};
-                       h.set_args(counts, totals, length);
+                       h.set_args(counts, totals, length, chunk);
                        h.parallel_for(in_groups(chunks, adders), *scan_);
                      })});
     steps.push_back({"scatter", queue_.submit([&](runtime::handler& h) {

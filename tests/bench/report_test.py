@@ -247,6 +247,7 @@ class Report(FilesTest):
             "trace": [bench, "trace", "--mesh", "terrain:2", "--repeat", "1"],
             "reference": [bench, "reference", "--terrain", "2", "--soup", "0", "--repeat", "1"],
             "pictures": [bench, "pictures", knot, "--width", "32", "--repeat", "1"],
+            "sort": [bench, "sort", "--count", "100", "--repeat", "2"],
             "growth": [bench, "growth", "--triangles", "10", "20", "--width", "64", "--repeat", "2"],
         }
         files = []

@@ -129,6 +129,17 @@ TEST_CASE_TEMPLATE("a million keys by what the device is tuned to", Key, std::ui
   CHECK(misplaced({"tuned", tuning_for(test::device()), 0, 0}, keys, 8 * sizeof(Key), order) == 0);
 }
 
+TEST_CASE("counts of so many tiles that a chunk of them is longer than the least") {
+  // 256 chunks of 2,048 counts are those of 2,048 tiles of 1,024 keys.
+  const std::vector<std::uint32_t> keys = random_keys<std::uint32_t>(2'200'000, ~0u);
+  const std::vector<std::uint32_t> order = order_of(keys, 8);
+  for (const test::sort_way& way : test::sort_ways())
+    if (way.name == "counting") {
+      REQUIRE(way.tile_32 * 2048 < keys.size());
+      CHECK(misplaced(way, keys, 8, order) == 0);
+    }
+}
+
 TEST_CASE("scratch memory is kept: a second sort of as many keys allocates nothing") {
   const std::vector<std::uint32_t> keys = random_keys<std::uint32_t>(10'000, ~0u);
   for (const test::sort_way& way : test::sort_ways()) {
