@@ -5,7 +5,7 @@ namespace facet::tracer {
 sort_tuning sort_tuning_for(const runtime::device& d) {
   sort_tuning t;
   t.tiles = 4 * d.max_compute_units();
-  if (!d.is_gpu() || d.max_work_group_size() < 256) return t;
+  if (!d.is_gpu()) return t;
   t.face = sort_face::group;
   t.histogram_groups = 4 * d.max_compute_units();
   // match, votes, and loads that only order what they name are PTX of compute capability 7.0.
