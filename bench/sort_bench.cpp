@@ -62,7 +62,8 @@ tracer::tuning tuned(const runtime::device& d, const arguments& o) {
   const auto set = [](std::uint32_t& to, std::uint32_t value) {
     if (value != 0) to = value;
   };
-  set(s.group, o.group);
+  set(s.group_32, o.group);
+  set(s.group_64, o.group);
   set(s.items_32, o.items);
   set(s.items_64, o.items);
   set(s.window, o.window);
@@ -78,7 +79,8 @@ json settings_of(const tracer::sort_tuning& s, const arguments& o) {
   if (s.face == sort_face::group)
     j.update({{"ranking", word_of(rankings, s.ranking)},
               {"look_back", word_of(look_backs, s.look_back)},
-              {"group", s.group},
+              {"group_32", s.group_32},
+              {"group_64", s.group_64},
               {"items_32", s.items_32},
               {"items_64", s.items_64},
               {"window", s.window},

@@ -15,6 +15,11 @@ constexpr std::uint32_t adders = 256;  // a group, and chunks at most (cl/radix_
 constexpr std::uint32_t chunk_least = 2048;
 
 template <class Key>
+std::uint32_t group_of(const sort_tuning& t) {
+  return sizeof(Key) == 4 ? t.group_32 : t.group_64;
+}
+
+template <class Key>
 std::uint32_t items_of(const sort_tuning& t) {
   return sizeof(Key) == 4 ? t.items_32 : t.items_64;
 }
@@ -23,7 +28,7 @@ template <class Key>
 std::string options_of(const tuning& t, bool looks_back) {
   std::string o = t.flags() + warp_options(t.sort);
   o += sizeof(Key) == 4 ? " -DKEY=uint" : " -DKEY=ulong";
-  o += " -DGROUP=" + std::to_string(t.sort.group);
+  o += " -DGROUP=" + std::to_string(group_of<Key>(t.sort));
   o += " -DITEMS=" + std::to_string(items_of<Key>(t.sort));
   o += " -DCOPIES=" + std::to_string(t.sort.histogram_copies);
   if (t.sort.values_beside) o += " -DFACET_SORT_BESIDE";
@@ -35,12 +40,12 @@ std::string options_of(const tuning& t, bool looks_back) {
 /// Words of local memory that `scatter` needs (LOCAL_WORDS in cl/radix_sort.cl).
 template <class Key>
 std::uint32_t local_words(const sort_tuning& t) {
-  const std::uint32_t tile = t.group * items_of<Key>(t);
+  const std::uint32_t group = group_of<Key>(t), tile = group * items_of<Key>(t);
   const std::uint32_t key_words = sizeof(Key) / sizeof(std::uint32_t);
   const bool has_warps = t.ranking != sort_ranking::portable;
-  const std::uint32_t ranking = has_warps ? t.group / 32 * digits : std::max(16 * t.group, tile);
+  const std::uint32_t ranking = has_warps ? group / 32 * digits : std::max(16 * group, tile);
   const std::uint32_t pool = std::max(tile * (key_words + t.values_beside), ranking);
-  return pool + digits + 2 * (has_warps ? t.group / 32 : t.group);
+  return pool + digits + 2 * (has_warps ? group / 32 : group);
 }
 
 bool looks_back(const runtime::queue& q, const runtime::source_tree& kernels, const tuning& t) {
@@ -85,7 +90,7 @@ double group_sort<Key>::compile_ms() const {
 
 template <class Key>
 std::uint32_t group_sort<Key>::tile_size(const sort_tuning& t) {
-  return t.group * items_of<Key>(t);
+  return group_of<Key>(t) * items_of<Key>(t);
 }
 
 template <class Key>
@@ -118,7 +123,7 @@ void group_sort<Key>::sort_looking_back(const sort_request<Key>& r, std::uint32_
     steps.push_back({"fill", queue_.submit([&](runtime::handler& h) {
                        h.fill(runtime::accessor{bins_, h, runtime::write_only}, 0u);
                      })});
-  const std::uint32_t needed = (r.count + tuning_.group - 1) / tuning_.group;
+  const std::uint32_t needed = (r.count + group_of<Key>(tuning_) - 1) / group_of<Key>(tuning_);
   steps.push_back({"histogram", queue_.submit([&](runtime::handler& h) {
                      const runtime::accessor keys{r.keys, h, runtime::read_only};
                      const runtime::accessor bins{bins_, h, runtime::read_write};
@@ -127,9 +132,9 @@ void group_sort<Key>::sort_looking_back(const sort_request<Key>& r, std::uint32_
                      const runtime::local_accessor<std::uint32_t> local(
                          sizeof(Key) * digits * tuning_.histogram_copies, h);
                      h.set_args(keys, bins, words, counters, r.count, r.bits, local);
-                     h.parallel_for(
-                         in_groups(std::min(needed, tuning_.histogram_groups), tuning_.group),
-                         *histogram_);
+                     h.parallel_for(in_groups(std::min(needed, tuning_.histogram_groups),
+                                              group_of<Key>(tuning_)),
+                                    *histogram_);
                    })});
   for (unsigned shift = 0; shift < r.bits; shift += digit_bits) {
     const unsigned pass = shift / digit_bits;
@@ -147,7 +152,7 @@ void group_sort<Key>::sort_looking_back(const sort_request<Key>& r, std::uint32_
                            keys, values, keys_out, values_out, bins, words, next, counters, r.count,
                            shift, mask_of(r.bits, shift), is_first_order,
                            runtime::local_accessor<std::uint32_t>(local_words<Key>(tuning_), h));
-                       h.parallel_for(in_groups(tiles, tuning_.group), scatter_);
+                       h.parallel_for(in_groups(tiles, group_of<Key>(tuning_)), scatter_);
                      })});
     std::swap(r.keys, keys_);
     std::swap(r.values, values_);
@@ -169,7 +174,7 @@ void group_sort<Key>::sort_counting(const sort_request<Key>& r, std::uint32_t ti
                        const runtime::accessor keys{r.keys, h, runtime::read_only};
                        const runtime::accessor counts{counts_, h, runtime::write_only};
                        h.set_args(keys, counts, r.count, shift, mask);
-                       h.parallel_for(in_groups(tiles, tuning_.group), *count_);
+                       h.parallel_for(in_groups(tiles, group_of<Key>(tuning_)), *count_);
                      })});
     steps.push_back({"sum_chunks", queue_.submit([&](runtime::handler& h) {
                        const runtime::accessor counts{counts_, h, runtime::read_only};
@@ -193,7 +198,7 @@ void group_sort<Key>::sort_counting(const sort_request<Key>& r, std::uint32_t ti
                            keys, values, keys_out, values_out, places, r.count, shift, mask,
                            is_first_order,
                            runtime::local_accessor<std::uint32_t>(local_words<Key>(tuning_), h));
-                       h.parallel_for(in_groups(tiles, tuning_.group), scatter_);
+                       h.parallel_for(in_groups(tiles, group_of<Key>(tuning_)), scatter_);
                      })});
     std::swap(r.keys, keys_);
     std::swap(r.values, values_);

@@ -25,9 +25,10 @@ struct sort_tuning {
   // Of work-groups.
   sort_ranking ranking = sort_ranking::portable;
   look_back_use look_back = look_back_use::if_proven;
-  std::uint32_t group = 256;                 ///< work-items, at least 256
-  std::uint32_t items_32 = 8, items_64 = 6;  ///< keys a work-item, of 32 and of 64 bits
-  std::uint32_t window = 4;                  ///< words that look-back asks for at once
+  std::uint32_t group_32 = 256,
+                group_64 = 256;  ///< work-items, at least 256, for keys of 32 and 64 bits
+  std::uint32_t items_32 = 8, items_64 = 6;  ///< keys a work-item
+  std::uint32_t window = 16;                 ///< words that look-back asks for at once
   bool values_beside = false;                ///< in local memory, beside the keys
   std::uint32_t registers = 0;  ///< a work-item has at most; 0: as NVIDIA's compiler likes
   std::uint32_t histogram_groups = 64;

@@ -22,7 +22,8 @@ inline std::vector<sort_way> sort_ways() {
   serial.sort.face = sort_face::serial;
   serial.sort.tiles = 7;
   serial.sort.tile_least = 1000;
-  ways.push_back({"serial", serial, 1000, 1000});
+  // A work-item alone keeps whole lines for each digit: more than a GPU's work-item may have.
+  if (!device().is_gpu()) ways.push_back({"serial", serial, 1000, 1000});
 
   tuning group = tuning_for(device());
   group.sort.face = sort_face::group;
@@ -32,7 +33,7 @@ inline std::vector<sort_way> sort_ways() {
     sort_tuning& s = group.sort;
     s.look_back = use;
     s.ranking = ranking;
-    s.group = size;
+    s.group_32 = s.group_64 = size;
     s.items_32 = items_32;
     s.items_64 = items_64;
     s.values_beside = beside;
