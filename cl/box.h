@@ -23,11 +23,11 @@
 #include "features.h"
 #include "vec.h"
 
-// A number of each of a node's children, four or in the wide layout eight.
+// A number of each of a node's children, two or in the wide layout eight.
 #ifdef FACET_WIDE
 typedef float8 Each;
 #else
-typedef float4 Each;
+typedef float2 Each;
 #endif
 
 typedef struct {

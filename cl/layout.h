@@ -37,21 +37,21 @@ struct FACET_ALIGNED TreeNode {
   uint spare;
 };
 
-// A node as traversal reads it: the bounds of up to four children, one side of one axis to 16 bytes,
-// then what they are. A child is a node's index, or a leaf (FACET_LEAF). An absent child has bounds
-// that no ray meets: lo = INFINITY, hi = -INFINITY.
+// A node as traversal reads it: its two children's bounds, then what they are: a node's index, or a
+// leaf (FACET_LEAF). It is also what other layouts are made from.
 struct FACET_ALIGNED Node {
-  float x[2][4];  // lo, hi
-  float y[2][4];
-  float z[2][4];
-  uint child[4];
-  uint spare[4];
+  float x[2][2];  // lo, hi
+  float y[2][2];
+  float z[2][2];
+  uint child[2];
+  uint spare[2];
 };
 
 // The wide layout, for CPUs: eight children to a node, triangles in blocks of eight.
 #define FACET_BLOCK 8u
 
-// As Node. A leaf is one block of triangles, or one instance.
+// As Node. A leaf is one block of triangles, or one instance. An absent child has bounds that no ray
+// meets: lo = INFINITY, hi = -INFINITY.
 struct FACET_ALIGNED WideNode {
   float x[2][8];  // lo, hi
   float y[2][8];
@@ -234,7 +234,7 @@ typedef struct Passage Passage;
 
 FACET_SIZE(Box, 32)
 FACET_SIZE(TreeNode, 48)
-FACET_SIZE(Node, 128)
+FACET_SIZE(Node, 64)
 FACET_SIZE(WideNode, 256)
 FACET_SIZE(TriangleBlock, 288)
 FACET_SIZE(TriangleInfo, 16)

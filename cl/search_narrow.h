@@ -1,23 +1,19 @@
-// A search through trees of four children a node.
+// A search through binary trees: for devices whose vectors are many work-items.
 #ifndef FACET_SEARCH_NARROW_H
 #define FACET_SEARCH_NARROW_H
 
 #include "query.h"
 
-// A child that waits, as one number that sorts by distance: the near end's bits, which order as
-// the floats do because tmin is at least 0, above the child. Absent ones sort last.
-#define FACET_ABSENT (~0ul)
-static inline ulong waiting(float near, float far, uint child) {
-  return near <= far ? (ulong)as_uint(near) << 32 | child : FACET_ABSENT;
-}
+// A child that waits, as one number: the bits of its near end above the child.
+static inline ulong waiting(float near, uint child) { return (ulong)as_uint(near) << 32 | child; }
 static inline float near_of(ulong entry) { return as_float((uint)(entry >> 32)); }
 
 // A mark on the stack: below it lies what waits in the world, above it an instance's tree.
 #define FACET_INSTANCE_ENDS ((ulong)FACET_NONE)
 
-// Depth first, the nearest child first. A node leaves at most three children waiting, so three times
-// the depth of the trees, and one for the mark, are enough for the stack: FACET_STACK is at least
-// that (host/tracer/tree.cpp), and it cannot overflow.
+// Depth first, the nearer child first. A node leaves at most one child waiting, so the depth of the
+// trees, and one for the mark, are enough for the stack: FACET_STACK is at least that
+// (host/tracer/tree.cpp), and it cannot overflow.
 static inline void search(const Scene* s, GEOMETRY positions, float3 o, float3 d, float tmin, uint mode,
                           Space* space, Query* q) {
   ulong stack[FACET_STACK];
@@ -34,22 +30,16 @@ static inline void search(const Scene* s, GEOMETRY positions, float3 o, float3 d
     bool is_leaf = true;
     while (!(node & FACET_LEAF_BIT)) {
       __global const Node* n = s->nodes + node;
-      const uint4 child = *(__global const uint4*)n->child;
+      const uint2 child = *(__global const uint2*)n->child;
       Each near, far;
       child_intervals(space->slabs, sides, n->x[0], tmin, q->t, &near, &far);
-      ulong a = waiting(near.x, far.x, child.x), b = waiting(near.y, far.y, child.y),
-            c = waiting(near.z, far.z, child.z), e = waiting(near.w, far.w, child.w);
-      // A sorting network: a <= b <= c <= e.
-      const ulong ab = min(a, b), ba = max(a, b), ce = min(c, e), ec = max(c, e);
-      a = min(ab, ce), e = max(ba, ec);
-      const ulong p = max(ab, ce), r = min(ba, ec);
-      b = min(p, r), c = max(p, r);
-      if (e != FACET_ABSENT) stack[top++] = e;
-      if (c != FACET_ABSENT) stack[top++] = c;
-      if (b != FACET_ABSENT) stack[top++] = b;
-      is_leaf = a != FACET_ABSENT;
+      const bool is_first = near.x <= far.x, is_second = near.y <= far.y;
+      is_leaf = is_first || is_second;
       if (!is_leaf) break;
-      node = (uint)a;
+      const bool is_swapped = is_first && is_second ? near.y < near.x : is_second;
+      node = is_swapped ? child.y : child.x;
+      if (is_first && is_second)
+        stack[top++] = is_swapped ? waiting(near.x, child.x) : waiting(near.y, child.y);
     }
     if (is_leaf) {
 #ifndef FACET_NO_INSTANCES

@@ -22,36 +22,21 @@ static inline bool is_leaf(__global const TreeNode* tree, uint node, uint leaf_s
          half_area(l) * (float)size_of(l) + half_area(r) * (float)size_of(r);
 }
 
-// Node count + i of the binary tree stands at node_offset + i, as if a ray could come there: its two
-// children are opened, the larger first, until they are four or all leaves. Only the nodes that the
-// root leads to are ever read.
+// Node count + i of the binary tree stands at node_offset + i, as if a ray could come there. Only the
+// nodes that the root leads to are ever read.
 __kernel void make_nodes(__global const TreeNode* tree, __global Node* nodes, uint count,
                          uint leaf_size, uint node_offset, uint slot_offset) {
   const uint i = (uint)get_global_id(0);
   if (i + 1u >= count) return;
-  uint child[4] = {tree[count + i].left, tree[count + i].right, FACET_NONE, FACET_NONE};
-  for (uint children = 2u; children < 4u; ++children) {
-    float largest = -1.0f;
-    uint opened = 4u;
-    for (uint c = 0u; c < children; ++c)
-      if (!is_leaf(tree, child[c], leaf_size) && half_area(&tree[child[c]]) > largest) {
-        largest = half_area(&tree[child[c]]);
-        opened = c;
-      }
-    if (opened == 4u) break;
-    child[children] = tree[child[opened]].right;
-    child[opened] = tree[child[opened]].left;
-  }
+  const uint child[2] = {tree[count + i].left, tree[count + i].right};
   Node out;
-  for (uint c = 0u; c < 4u; ++c) {
-    const bool is_there = child[c] != FACET_NONE;
-    __global const TreeNode* n = &tree[is_there ? child[c] : 0u];
-    out.x[0][c] = is_there ? n->lo[0] : INFINITY, out.x[1][c] = is_there ? n->hi[0] : -INFINITY;
-    out.y[0][c] = is_there ? n->lo[1] : INFINITY, out.y[1][c] = is_there ? n->hi[1] : -INFINITY;
-    out.z[0][c] = is_there ? n->lo[2] : INFINITY, out.z[1][c] = is_there ? n->hi[2] : -INFINITY;
-    out.child[c] = !is_there                            ? FACET_NONE
-                   : is_leaf(tree, child[c], leaf_size) ? FACET_LEAF(slot_offset + n->first, size_of(n))
-                                                        : node_offset + (child[c] - count);
+  for (uint c = 0u; c < 2u; ++c) {
+    __global const TreeNode* n = &tree[child[c]];
+    out.x[0][c] = n->lo[0], out.x[1][c] = n->hi[0];
+    out.y[0][c] = n->lo[1], out.y[1][c] = n->hi[1];
+    out.z[0][c] = n->lo[2], out.z[1][c] = n->hi[2];
+    out.child[c] = is_leaf(tree, child[c], leaf_size) ? FACET_LEAF(slot_offset + n->first, size_of(n))
+                                                      : node_offset + (child[c] - count);
     out.spare[c] = 0u;
   }
   nodes[node_offset + i] = out;

@@ -224,8 +224,8 @@ device_geometry build_geometry(runtime::queue& q, const runtime::source_tree& ke
     placed = std::move(sorted);
     g.depth = top.depth + mesh_depth;
   }
-  // cl/search_narrow.h: three entries a level of either tree, and one where an instance is entered.
-  g.stack = 3 * g.depth + (f.instances ? 1 : 0);
+  // cl/search_narrow.h: one entry a level of either tree, and one where an instance is entered.
+  g.stack = g.depth + (f.instances ? 1 : 0);
   if (!placed.empty()) g.instances = runtime::buffer<Instance>(placed.data(), placed.size());
   g.world = runtime::buffer<World>(&packed.world, 1);
   if (in_images) {

@@ -66,7 +66,7 @@ mistake truncated_nodes() {
         "#ifdef FACET_WIDE\n"
         "  const Each cut = as_float8(vload8(0, (__global const uint*)face) & 0xffff8000u);\n"
         "#else\n"
-        "  const Each cut = as_float4(vload4(0, (__global const uint*)face) & 0xffff8000u);\n"
+        "  const Each cut = as_float2(vload2(0, (__global const uint*)face) & 0xffff8000u);\n"
         "#endif\n"
         "  return fma(cut, (Each)(inverse), (Each)(offset));"}});
 }
@@ -140,8 +140,7 @@ mistake exclusive_edges() {
 mistake short_stack() {
   return of(
       "short-stack", "what does not fit on a stack of 4 is left out",
-      {{"search_narrow.h", "if (b != FACET_ABSENT) stack",
-        "if (b != FACET_ABSENT && top < 4) stack"},
+      {{"search_narrow.h", "if (is_first && is_second)", "if (is_first && is_second && top < 4)"},
        {"search_wide.h", "stack[(*top)++] = max(a, b);",
         "if (*top < 4) stack[(*top)++] = max(a, b);"},
        {"search_wide.h", "int k = (*top)++;", "if (*top >= 4) continue;\n    int k = (*top)++;"},
