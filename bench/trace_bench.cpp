@@ -92,7 +92,9 @@ void run(const settings& o) {
   options.geometry = o.geometry == "image"    ? tracer::geometry_kind::image
                      : o.geometry == "buffer" ? tracer::geometry_kind::buffer
                                               : tracer::geometry_kind::automatic;
-  options.tree = o.tree == "none" ? tracer::tree_kind::none : tracer::tree_kind::levels;
+  options.tree = o.tree == "none"     ? tracer::tree_kind::none
+                 : o.tree == "binned" ? tracer::tree_kind::binned
+                                      : tracer::tree_kind::levels;
   options.layout = o.layout == "wide"     ? tracer::layout_kind::wide
                    : o.layout == "narrow" ? tracer::layout_kind::narrow
                                           : tracer::layout_kind::automatic;
@@ -156,7 +158,7 @@ void add_trace_row(CLI::App& app) {
       ->check(CLI::IsMember({"auto", "image", "buffer"}))
       ->capture_default_str();
   row->add_option("--tree", o->tree, "sah: the serial reference's, made on the host")
-      ->check(CLI::IsMember({"levels", "sah", "none"}))
+      ->check(CLI::IsMember({"levels", "binned", "sah", "none"}))
       ->capture_default_str();
   row->add_option("--layout", o->layout, "of nodes and triangles")
       ->check(CLI::IsMember({"auto", "narrow", "wide"}))

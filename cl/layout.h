@@ -25,6 +25,50 @@ struct FACET_ALIGNED Box {
   uint spare1;
 };
 
+// How centres of boxes, doubled (lo + hi), become codes along a Morton curve: bit k of an axis' cell
+// goes to the k-th lowest bit of its mask.
+struct FACET_ALIGNED Curve {
+  float lo[3];  // of all centres
+  uint spare0;
+  float hi[3];
+  uint spare1;
+  float scale[3];  // cells a unit; 0 for an axis without extent
+  uint spare2;
+  uint mask[3];
+  uint spare3;
+};
+
+// A finished subtree, as an input of the top tree's builder.
+struct FACET_ALIGNED Item {
+  float lo[3];
+  uint index;  // along the curve; says what it is (refs[index], as a node's child) and breaks ties
+  float hi[3];
+  uint size;  // primitives below, and from bit FACET_HEIGHT_BIT on the height in nodes
+};
+#define FACET_HEIGHT_BIT 16u
+#define FACET_SIZE_OF(size) ((size) & 0xffffu)
+#define FACET_HEIGHT_OF(size) ((size) >> FACET_HEIGHT_BIT)
+
+// A node of the top tree that is not split yet: items begin to end - 1. Its nodes are to stand at
+// `node` and the end - begin - 2 places after it.
+struct FACET_ALIGNED TopRange {
+  uint begin, end;
+  uint node;
+  uint depth;         // nodes above it
+  uint parent, side;  // among the ranges of the level before: whose TopSides tell its centres
+  uint bins;          // where the range's bins are, if several groups fill them; else FACET_NONE
+  uint buffer;        // which of two its items are in
+};
+
+// The two sides of a range that is split, [side]: bounds as order-preserving integers (cl/bins.h) of
+// boxes and of doubled centres, the smallest and the largest index, how many items.
+struct FACET_ALIGNED TopSides {
+  uint lo[2][3], centre_lo[2][3], first[2];
+  uint count[2];
+  uint hi[2][3], centre_hi[2][3], last[2];
+  uint spare[2];
+};
+
 // A node of the builders' binary tree. Nodes 0 to n-1 are the leaves in sorted order; n+i is the
 // node that joins the sorted primitives i and i+1. It covers the sorted range first..last.
 struct FACET_ALIGNED TreeNode {
@@ -215,6 +259,10 @@ struct FACET_ALIGNED Passage {
 
 #ifdef __OPENCL_C_VERSION__
 typedef struct Box Box;
+typedef struct Curve Curve;
+typedef struct Item Item;
+typedef struct TopRange TopRange;
+typedef struct TopSides TopSides;
 typedef struct TreeNode TreeNode;
 typedef struct Node Node;
 typedef struct WideNode WideNode;
@@ -233,6 +281,10 @@ typedef struct Passage Passage;
 #endif
 
 FACET_SIZE(Box, 32)
+FACET_SIZE(Curve, 64)
+FACET_SIZE(Item, 32)
+FACET_SIZE(TopRange, 32)
+FACET_SIZE(TopSides, 128)
 FACET_SIZE(TreeNode, 48)
 FACET_SIZE(Node, 64)
 FACET_SIZE(WideNode, 256)

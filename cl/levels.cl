@@ -4,17 +4,28 @@
 // bit is the level of the boundary between them, and all that shares the bits above is joined there.
 // Within a level each boundary has a different prefix above it, so its two sides are whole
 // subtrees of lower levels and no two merges touch. Positions break ties of equal codes, so the
-// depth is at most 63 + ceil(log2 n), also where all codes are equal. The tree is that of
+// depth is at most 32 + ceil(log2 n), also where all codes are equal. The tree is that of
 // Karras (HPG 2012), in the order of the source design.
-#include "vec.h"
+#include "bounds.h"
+
+// The boxes of triangles, three corners in a row.
+__kernel void triangle_boxes(__global const float4* corners, __global Box* boxes, uint count) {
+  const uint i = (uint)get_global_id(0);
+  if (i >= count) return;
+  const Bounds b = bounds_at(corners, i);
+  Box box;
+  box.lo[0] = b.lo.x, box.lo[1] = b.lo.y, box.lo[2] = b.lo.z, box.spare0 = 0u;
+  box.hi[0] = b.hi.x, box.hi[1] = b.hi.y, box.hi[2] = b.hi.z, box.spare1 = 0u;
+  boxes[i] = box;
+}
 
 // 1 to 28: the codes are equal and the positions differ; 32 + bit of the code, otherwise.
-__kernel void boundary_levels(__global const ulong* codes, __global uint* levels,
+__kernel void boundary_levels(__global const uint* codes, __global uint* levels,
                               __global uint* boundaries, uint count) {
   const uint i = (uint)get_global_id(0);
   if (i + 1u >= count) return;
-  const ulong difference = codes[i] ^ codes[i + 1u];
-  levels[i] = difference == 0ul ? 32u - clz(i ^ (i + 1u)) : 96u - (uint)clz(difference);
+  const uint difference = codes[i] ^ codes[i + 1u];
+  levels[i] = difference == 0u ? 32u - clz(i ^ (i + 1u)) : 64u - clz(difference);
   boundaries[i] = i;
 }
 

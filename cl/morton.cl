@@ -1,68 +1,104 @@
-// Primitives' boxes, their bounds, and where their centres stand on the Morton curve.
-#include "vec.h"
+// Where primitives' centres stand on a Morton curve that gives its bits to the longest sides.
+#include "bounds.h"
 
-// The boxes of triangles, three corners in a row in `positions`.
-__kernel void triangle_boxes(__global const float4* positions, __global Box* boxes, uint count) {
-  const uint i = (uint)get_global_id(0);
-  if (i >= count) return;
-  const float3 a = positions[3u * i].xyz, b = positions[3u * i + 1u].xyz, c = positions[3u * i + 2u].xyz;
-  const float3 lo = smaller3(smaller3(a, b), c), hi = larger3(larger3(a, b), c);
-  Box box;
-  box.lo[0] = lo.x, box.lo[1] = lo.y, box.lo[2] = lo.z, box.spare0 = 0u;
-  box.hi[0] = hi.x, box.hi[1] = hi.y, box.hi[2] = hi.z, box.spare1 = 0u;
-  boxes[i] = box;
+// The bounds of what all work-items of the group give, at pool[0 .. 5]: a power of two of them.
+static inline void reduce_bounds(Bounds b, __local float* pool) {
+  const uint lid = (uint)get_local_id(0), size = (uint)get_local_size(0);
+  pool[lid] = b.lo.x, pool[size + lid] = b.lo.y, pool[2u * size + lid] = b.lo.z;
+  pool[3u * size + lid] = b.hi.x, pool[4u * size + lid] = b.hi.y, pool[5u * size + lid] = b.hi.z;
+  for (uint step = size / 2u; step > 0u; step /= 2u) {
+    barrier(CLK_LOCAL_MEM_FENCE);
+    if (lid < step) {
+      for (uint k = 0u; k < 3u; ++k) {
+        pool[k * size + lid] = smaller(pool[k * size + lid], pool[k * size + lid + step]);
+        pool[(k + 3u) * size + lid] = larger(pool[(k + 3u) * size + lid], pool[(k + 3u) * size + lid + step]);
+      }
+    }
+  }
+  barrier(CLK_LOCAL_MEM_FENCE);
 }
 
-static inline float3 centre(__global const Box* b) {
-  return (vec_global(b->lo) + vec_global(b->hi)) * 0.5f;
+static inline void write_bounds(__local const float* pool, __global Box* to) {
+  const uint size = (uint)get_local_size(0);
+  for (uint k = 0u; k < 3u; ++k) {
+    to->lo[k] = pool[k * size];
+    to->hi[k] = pool[(k + 3u) * size];
+  }
 }
 
-// Bounds of all centres in two steps, since min and max may be taken in any order: first each
-// of the launched work-items those of every get_global_size(0)-th box, ...
-__kernel void partial_bounds(__global const Box* boxes, __global Box* partial, uint count) {
-  float3 lo = (float3)(INFINITY), hi = (float3)(-INFINITY);
+// Bounds of all doubled centres: first of each group's share, ...
+__kernel void partial_bounds(PRIMITIVES primitives, __global Box* partial, uint count, __local float* pool) {
+  Bounds b = no_bounds();
   for (size_t i = get_global_id(0); i < count; i += get_global_size(0)) {
-    const float3 c = centre(&boxes[i]);
-    lo = smaller3(c, lo);
-    hi = larger3(c, hi);
+    const float3 c = centre2(bounds_at(primitives, (uint)i));
+    b.lo = smaller3(c, b.lo);
+    b.hi = larger3(c, b.hi);
   }
-  __global Box* out = &partial[get_global_id(0)];
-  out->lo[0] = lo.x, out->lo[1] = lo.y, out->lo[2] = lo.z;
-  out->hi[0] = hi.x, out->hi[1] = hi.y, out->hi[2] = hi.z;
+  reduce_bounds(b, pool);
+  if (get_local_id(0) == 0u) write_bounds(pool, &partial[get_group_id(0)]);
 }
 
-// ... then one work-item those of the partial ones, into the first.
-__kernel void total_bounds(__global Box* partial, uint count) {
-  float3 lo = vec_global(partial[0].lo), hi = vec_global(partial[0].hi);
-  for (uint i = 1u; i < count; ++i) {
-    lo = smaller3(vec_global(partial[i].lo), lo);
-    hi = larger3(vec_global(partial[i].hi), hi);
+// An axis has at most as many bits as a float's significand.
+#define MOST_AXIS_BITS 24u
+
+// Gives each bit, from the highest on, to the side of the cells that is then the longest.
+static inline void make_curve(float3 lo, float3 hi, __global Curve* curve) {
+  float side[3] = {hi.x - lo.x, hi.y - lo.y, hi.z - lo.z};
+  const float extent[3] = {side[0], side[1], side[2]};
+  uint mask[3] = {0u, 0u, 0u}, bits[3] = {0u, 0u, 0u};
+  for (uint bit = 32u; bit-- > 0u;) {
+    uint axis = side[1] > side[0] ? 1u : 0u;
+    if (side[2] > side[axis]) axis = 2u;
+    if (!(side[axis] > 0.0f)) break;
+    mask[axis] |= 1u << bit;
+    side[axis] = ++bits[axis] < MOST_AXIS_BITS ? side[axis] * 0.5f : 0.0f;
   }
-  partial[0].lo[0] = lo.x, partial[0].lo[1] = lo.y, partial[0].lo[2] = lo.z;
-  partial[0].hi[0] = hi.x, partial[0].hi[1] = hi.y, partial[0].hi[2] = hi.z;
+  curve->lo[0] = lo.x, curve->lo[1] = lo.y, curve->lo[2] = lo.z;
+  curve->hi[0] = hi.x, curve->hi[1] = hi.y, curve->hi[2] = hi.z;
+  for (uint axis = 0u; axis < 3u; ++axis) {
+    curve->mask[axis] = mask[axis];
+    curve->scale[axis] = bits[axis] == 0u ? 0.0f : (float)(1u << bits[axis]) / extent[axis];
+  }
 }
 
-// The low 21 bits of x, two zeros after each.
-static inline ulong spread(uint x) {
-  ulong v = x & 0x1fffffu;
-  v = (v | v << 32) & 0x001f00000000fffful;
-  v = (v | v << 16) & 0x001f0000ff0000fful;
-  v = (v | v << 8) & 0x100f00f00f00f00ful;
-  v = (v | v << 4) & 0x10c30c30c30c30c3ul;
-  return (v | v << 2) & 0x1249249249249249ul;
+// ... then one group of all; and the curve over them.
+__kernel void total_bounds(__global const Box* partial, __global Curve* curve, uint count,
+                           __local float* pool) {
+  Bounds b = no_bounds();
+  for (uint i = (uint)get_local_id(0); i < count; i += (uint)get_local_size(0)) {
+    b.lo = smaller3(vec_global(partial[i].lo), b.lo);
+    b.hi = larger3(vec_global(partial[i].hi), b.hi);
+  }
+  reduce_bounds(b, pool);
+  if (get_local_id(0) == 0u) {
+    const uint size = (uint)get_local_size(0);
+    make_curve((float3)(pool[0], pool[size], pool[2u * size]),
+               (float3)(pool[3u * size], pool[4u * size], pool[5u * size]), curve);
+  }
 }
 
-// 63-bit codes, 21 bits an axis, x highest. One scale serves the three axes: cells are cubes,
-// so that a flat scene is not cut along its thin side as often as along its long ones.
-__kernel void morton_codes(__global const Box* boxes, __global const Box* bounds,
-                           __global ulong* codes, __global uint* order, uint count) {
+// The cell's bits at the places of the mask's bits, the lowest at the lowest.
+static inline uint deposit(uint cell, uint mask) {
+#if defined(__BMI2__) && !defined(FACET_PORTABLE)
+  return __builtin_ia32_pdep_si(cell, mask);
+#else
+  uint code = 0u;
+  for (; mask != 0u; mask &= mask - 1u, cell >>= 1) code |= (cell & 1u) != 0u ? mask & -mask : 0u;
+  return code;
+#endif
+}
+
+static inline uint cell_of(float centre, float lo, float scale, uint mask) {
+  const uint cells = 1u << popcount(mask);
+  // Comparisons first: a centre that is not finite has a cell, too.
+  return (uint)smaller(larger((centre - lo) * scale, 0.0f), (float)(cells - 1u));
+}
+
+__kernel void morton_codes(PRIMITIVES primitives, __global const Curve* curve, __global uint* codes, uint count) {
   const uint i = (uint)get_global_id(0);
   if (i >= count) return;
-  const float3 lo = vec_global(bounds->lo), extent = vec_global(bounds->hi) - lo;
-  const float longest = larger(extent.x, larger(extent.y, extent.z));
-  const float3 at = (centre(&boxes[i]) - lo) / (longest > 0.0f ? longest : 1.0f) * 2097152.0f;
-  const uint x = min((uint)larger(at.x, 0.0f), 2097151u), y = min((uint)larger(at.y, 0.0f), 2097151u),
-             z = min((uint)larger(at.z, 0.0f), 2097151u);
-  codes[i] = spread(x) << 2 | spread(y) << 1 | spread(z);
-  order[i] = i;
+  const float3 c = centre2(bounds_at(primitives, i));
+  codes[i] = deposit(cell_of(c.x, curve->lo[0], curve->scale[0], curve->mask[0]), curve->mask[0]) |
+             deposit(cell_of(c.y, curve->lo[1], curve->scale[1], curve->mask[1]), curve->mask[1]) |
+             deposit(cell_of(c.z, curve->lo[2], curve->scale[2], curve->mask[2]), curve->mask[2]);
 }

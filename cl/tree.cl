@@ -1,11 +1,13 @@
 // From a builder's binary tree to what traversal reads.
-#include "vec.h"
+#include "bounds.h"
 
 static inline uint size_of(__global const TreeNode* n) { return n->last - n->first + 1u; }
 
-static inline float half_area(__global const TreeNode* n) {
-  const float3 e = vec_global(n->hi) - vec_global(n->lo);
-  return (e.x * e.y + e.y * e.z) + e.z * e.x;
+static inline float tree_node_area(__global const TreeNode* n) {
+  Bounds b;
+  b.lo = vec_global(n->lo);
+  b.hi = vec_global(n->hi);
+  return half_area(b);
 }
 
 // Whether a subtree becomes a leaf: at most leaf_size primitives (they are consecutive), where testing all
@@ -18,8 +20,8 @@ static inline bool is_leaf(__global const TreeNode* tree, uint node, uint leaf_s
   if (size == 1u || size > leaf_size) return size == 1u;
   __global const TreeNode* l = &tree[n->left];
   __global const TreeNode* r = &tree[n->right];
-  return half_area(n) * ((float)size - NODE_COST) <=
-         half_area(l) * (float)size_of(l) + half_area(r) * (float)size_of(r);
+  return tree_node_area(n) * ((float)size - NODE_COST) <=
+         tree_node_area(l) * (float)size_of(l) + tree_node_area(r) * (float)size_of(r);
 }
 
 // Node count + i of the binary tree stands at node_offset + i, as if a ray could come there. Only the
@@ -40,6 +42,20 @@ __kernel void make_nodes(__global const TreeNode* tree, __global Node* nodes, ui
     out.spare[c] = 0u;
   }
   nodes[node_offset + i] = out;
+}
+
+// Does nothing with a buffer but to need it.
+__kernel void touch(__global const uint* words) {}
+
+// Puts a tree's nodes behind others: its children's indices and places are then those of all.
+__kernel void append_nodes(__global const Node* from, __global Node* to, uint count, uint node_offset,
+                           uint slot_offset) {
+  const uint i = (uint)get_global_id(0);
+  if (i >= count) return;
+  Node n = from[i];
+  for (uint c = 0u; c < 2u; ++c)
+    n.child[c] += (n.child[c] & FACET_LEAF_BIT) != 0u ? slot_offset : node_offset;
+  to[node_offset + i] = n;
 }
 
 // Puts three float4 a triangle, and what the triangle is, into leaf order; i counts from the

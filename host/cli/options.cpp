@@ -99,7 +99,9 @@ void add_tracing(CLI::App& app, tracing_options& target) {
   add_device(app, target.device, true);
   add_choice<tracer::tree_kind>(
       app, "--tree", target.tracer.tree,
-      {{"levels", tracer::tree_kind::levels}, {"none", tracer::tree_kind::none}},
+      {{"levels", tracer::tree_kind::levels},
+       {"binned", tracer::tree_kind::binned},
+       {"none", tracer::tree_kind::none}},
       "Tree over the triangles; none tests every triangle (default levels)");
   add_kernels(app, target.tracer);
 }

@@ -16,11 +16,10 @@ Box box_of(const Instance& i) {
 
 binary_builder::binary_builder(runtime::queue& q, const runtime::source_tree& kernels,
                                const tuning& t)
-    : morton_(q, kernels, t), levels_(q, kernels, t) {}
+    : levels_(q, kernels, t) {}
 
 binary_tree binary_builder::over_triangles(runtime::buffer<texel>& corners, std::uint32_t count) {
-  runtime::buffer<Box> boxes(count);
-  morton_.triangle_boxes(corners, boxes, count);
+  runtime::buffer<Box> boxes = levels_.boxes_of(corners, count);
   return levels_.build(boxes, count);
 }
 

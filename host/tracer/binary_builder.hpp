@@ -28,10 +28,9 @@ class binary_builder {
     return triangles * (sizeof(Box) + 2 * sizeof(TreeNode) + 48);
   }
 
-  double compile_ms() const { return morton_.compile_ms() + levels_.compile_ms(); }
+  double compile_ms() const { return levels_.compile_ms(); }
 
  private:
-  morton morton_;
   levels_builder levels_;
 };
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "tracer/kernels.hpp"
+#include "tracer/launch.hpp"
 #include "tracer/look_back.hpp"
 
 namespace facet::tracer {
@@ -55,10 +56,6 @@ bool looks_back(const runtime::queue& q, const runtime::source_tree& kernels, co
 
 std::uint32_t mask_of(unsigned bits, unsigned shift) {
   return (1u << std::min(digit_bits, bits - shift)) - 1;
-}
-
-runtime::nd_range<1> in_groups(std::size_t groups, std::uint32_t group) {
-  return {runtime::range<1>(groups * group), runtime::range<1>(group)};
 }
 
 }  // namespace

@@ -9,8 +9,7 @@
 namespace facet::tracer {
 namespace {
 
-constexpr unsigned code_bits = 63;
-constexpr std::uint32_t level_count = 96;  ///< levels are 1 to 95 (cl/levels.cl)
+constexpr std::uint32_t level_count = 65;  ///< levels are 1 to 64 (cl/levels.cl)
 constexpr unsigned level_bits = 7;
 
 }  // namespace
@@ -23,6 +22,7 @@ levels_builder::levels_builder(runtime::queue q, const runtime::source_tree& ker
       sort_codes_(q, kernels, t),
       sort_levels_(q, kernels, t),
       program_(compiled(q, kernels, "levels.cl", t.flags())),
+      triangle_boxes_(program_.get_kernel("triangle_boxes")),
       boundary_levels_(program_.get_kernel("boundary_levels")),
       level_starts_(program_.get_kernel("level_starts")),
       make_leaves_(program_.get_kernel("make_leaves")),
@@ -34,15 +34,29 @@ double levels_builder::compile_ms() const {
          program_.build_ms();
 }
 
+runtime::buffer<Box> levels_builder::boxes_of(runtime::buffer<texel>& corners,
+                                              std::uint32_t count) {
+  runtime::buffer<Box> boxes(count);
+  queue_.submit([&](runtime::handler& h) {
+    const runtime::accessor in{corners, h, runtime::read_only};
+    const runtime::accessor out{boxes, h, runtime::write_only};
+    h.set_args(in, out, count);
+    h.parallel_for(padded(count, tuning_.group), triangle_boxes_);
+  });
+  return boxes;
+}
+
 binary_tree levels_builder::build(runtime::buffer<Box>& boxes, std::uint32_t count) {
   binary_tree tree{runtime::buffer<TreeNode>(2 * std::size_t(count) - 1),
                    runtime::buffer<std::uint32_t>(count), count, 0, 0};
   const std::uint32_t boundaries = count - 1;
   const auto range = padded(count, tuning_.group);
 
-  runtime::buffer<std::uint64_t> codes(count);
-  morton_.codes(boxes, codes, tree.order, count);
-  sort_codes_.sort(codes, tree.order, count, code_bits);
+  runtime::buffer<std::uint32_t> codes(count);
+  runtime::buffer<Curve> curve(1);
+  std::vector<sort_step> steps;
+  morton_.codes(boxes, curve, codes, count, steps);
+  sort_codes_.sort_order(codes, tree.order, count);
 
   runtime::buffer<std::uint32_t> begins(count), ends(count);
   queue_.submit([&](runtime::handler& h) {

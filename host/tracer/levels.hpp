@@ -14,19 +14,23 @@ class levels_builder {
   levels_builder(runtime::queue q, const runtime::source_tree& kernels, const tuning& t);
 
   /// The tree over the first `count` > 0 boxes; finite ones. The same tree on every run and device.
-  /// Its depth is at most 63 + ceil(log2 count) (cl/levels.cl).
+  /// Its depth is at most 32 + ceil(log2 count) (cl/levels.cl).
   binary_tree build(runtime::buffer<Box>& boxes, std::uint32_t count);
+
+  /// The boxes of the triangles at corners[3i .. 3i+2], i < count.
+  runtime::buffer<Box> boxes_of(runtime::buffer<texel>& corners, std::uint32_t count);
 
   double compile_ms() const;
 
  private:
   runtime::queue queue_;
   tuning tuning_;
-  morton morton_;
-  radix_sort<std::uint64_t> sort_codes_;
+  morton<Box> morton_;
+  radix_sort<std::uint32_t> sort_codes_;
   radix_sort<std::uint32_t> sort_levels_;
   runtime::program program_;
-  runtime::kernel boundary_levels_, level_starts_, make_leaves_, merge_level_, tree_root_;
+  runtime::kernel triangle_boxes_, boundary_levels_, level_starts_, make_leaves_, merge_level_,
+      tree_root_;
 };
 
 }  // namespace facet::tracer

@@ -1,34 +1,44 @@
-// Boxes of triangles, and Morton codes of the boxes' centres.
+// Where primitives' centres stand along a Morton curve (cl/morton.cl).
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "runtime/runtime.hpp"
 #include "tracer/layout.hpp"
 #include "tracer/pack.hpp"
+#include "tracer/sort_way.hpp"
 #include "tracer/tuning.hpp"
 
 namespace facet::tracer {
 
+/// The compiler's option by which kernels know what they work on (cl/bounds.h).
+std::string primitive_options(bool over_boxes);
+
+/// Primitive is texel (triangles, three corners a row) or Box.
+template <class Primitive>
 class morton {
  public:
-  morton(runtime::queue q, const runtime::source_tree& kernels, const tuning& t);
+  morton(const runtime::queue& q, const runtime::source_tree& kernels, const tuning& t);
 
-  /// boxes[i] for the triangle at corners[3i..3i+2], i < count.
-  void triangle_boxes(runtime::buffer<texel>& corners, runtime::buffer<Box>& boxes,
-                      std::uint32_t count);
-
-  /// 63-bit codes of the centres, on the smallest cube that holds them, and order[i] = i.
-  void codes(runtime::buffer<Box>& boxes, runtime::buffer<std::uint64_t>& codes,
-             runtime::buffer<std::uint32_t>& order, std::uint32_t count);
+  /// The curve through `count` > 0 primitives, and codes[i] of primitive i: 32 bits, those of the
+  /// longest sides first.
+  void codes(runtime::buffer<Primitive>& primitives, runtime::buffer<Curve>& curve,
+             runtime::buffer<std::uint32_t>& codes, std::uint32_t count,
+             std::vector<sort_step>& steps);
 
   double compile_ms() const { return program_.build_ms(); }
 
  private:
   runtime::queue queue_;
-  tuning tuning_;
+  std::uint32_t group_, most_groups_;
+  runtime::buffer<Box> partial_;
   runtime::program program_;
-  runtime::kernel triangle_boxes_, partial_bounds_, total_bounds_, codes_;
+  runtime::kernel partial_bounds_, total_bounds_, codes_;
 };
+
+extern template class morton<texel>;
+extern template class morton<Box>;
 
 }  // namespace facet::tracer

@@ -16,7 +16,7 @@
 
 namespace facet::tracer {
 
-enum class tree_kind { none, levels };
+enum class tree_kind { none, levels, binned };
 enum class geometry_kind { automatic, buffer, image };
 /// How a kernel finds trees and triangles: four children to a node and one triangle at a time, for
 /// GPUs, or eight of both at a time, for CPUs. Hits are the same. Images are for `narrow`.

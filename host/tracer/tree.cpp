@@ -9,6 +9,7 @@
 #include "tracer/kernels.hpp"
 #include "tracer/launch.hpp"
 #include "tracer/stopwatch.hpp"
+#include "tracer/tree_builder.hpp"
 
 namespace facet::tracer {
 namespace {
@@ -58,6 +59,8 @@ class geometry_builder {
         binary_(q, kernels, t),
         program_(compiled(q, kernels, "tree.cl", t.flags())),
         make_nodes_(program_.get_kernel("make_nodes")),
+        touch_(program_.get_kernel("touch")),
+        append_nodes_(program_.get_kernel("append_nodes")),
         gather_triangles_(program_.get_kernel("gather_triangles")),
         gather_normals_(program_.get_kernel("gather_normals")) {}
 
@@ -78,17 +81,43 @@ class geometry_builder {
             std::uint32_t(t.order.size()), t.root, t.depth};
   }
 
-  /// Writes the tree's nodes from node_offset on; returns how its root is named as a child.
-  std::uint32_t emit(binary_tree& tree, runtime::buffer<Node>& nodes, std::uint32_t leaf_size,
-                     std::uint32_t node_offset, std::uint32_t slot_offset) {
-    if (tree.count <= leaf_size) return FACET_LEAF(slot_offset, tree.count);
+  built_tree emit(binary_tree& tree, std::uint32_t leaf_size) {
+    built_tree t{runtime::buffer<Node>(std::max(1u, tree.count - 1)), tree.order};
+    t.depth = tree.depth;
+    if (tree.count <= leaf_size) {
+      t.root = FACET_LEAF(0u, tree.count);
+      return t;
+    }
     queue_.submit([&](runtime::handler& h) {
       const runtime::accessor in{tree.nodes, h, runtime::read_only};
-      const runtime::accessor out{nodes, h, runtime::read_write};
-      h.set_args(in, out, tree.count, leaf_size, node_offset, slot_offset);
+      const runtime::accessor out{t.nodes, h, runtime::read_write};
+      h.set_args(in, out, tree.count, leaf_size, 0u, 0u);
       h.parallel_for(padded(tree.count, tuning_.group), make_nodes_);
     });
-    return node_offset + (tree.root - tree.count);
+    t.root = tree.root - tree.count;
+    t.node_count = tree.count - 1;
+    return t;
+  }
+
+  /// Puts the tree's nodes behind the first `nodes`.
+  void append(built_tree& tree, runtime::buffer<Node>& all, std::uint32_t nodes,
+              std::uint32_t slots) {
+    if (tree.node_count == 0) return;
+    queue_.submit([&](runtime::handler& h) {
+      const runtime::accessor from{tree.nodes, h, runtime::read_only};
+      const runtime::accessor to{all, h, runtime::read_write};
+      h.set_args(from, to, tree.node_count, nodes, slots);
+      h.parallel_for(padded(tree.node_count, tuning_.group), append_nodes_);
+    });
+  }
+
+  /// Moves a buffer to the device: otherwise it goes there when a command first needs it.
+  template <class T>
+  void touch(runtime::buffer<T>& b) {
+    queue_.submit([&](runtime::handler& h) {
+      h.set_args(runtime::accessor{b, h, runtime::read_only});
+      h.single_task(touch_);
+    });
   }
 
   void gather(runtime::buffer<std::uint32_t>& order, runtime::buffer<texel>& corners,
@@ -121,7 +150,7 @@ class geometry_builder {
   const tuning& tuning_;
   binary_builder binary_;
   runtime::program program_;
-  runtime::kernel make_nodes_, gather_triangles_, gather_normals_;
+  runtime::kernel make_nodes_, touch_, append_nodes_, gather_triangles_, gather_normals_;
 };
 
 runtime::buffer<std::uint32_t> identity_order(std::uint32_t count) {
@@ -151,11 +180,12 @@ device_geometry build_geometry(runtime::queue& q, const runtime::source_tree& ke
   check_memory(q.get_device(), triangles, peak);
 
   geometry_builder build(q, kernels, t);
+  tree_builder<texel> builder(q, kernels, t, {t.leaf_sure, t.leaf_size});
   const std::size_t texels =
       in_images ? whole_rows(3 * triangles) : std::max<std::size_t>(1, 3 * triangles);
   const std::size_t instances = packed.instances.size();
   device_geometry g{runtime::buffer<World>(1),
-                    runtime::buffer<Node>(std::max<std::size_t>(1, triangles + instances)),
+                    runtime::buffer<Node>(1),
                     runtime::buffer<WideNode>(1),
                     runtime::buffer<Instance>(std::max<std::size_t>(1, instances)),
                     runtime::buffer<TriangleInfo>(std::max<std::size_t>(1, triangles)),
@@ -166,8 +196,7 @@ device_geometry build_geometry(runtime::queue& q, const runtime::source_tree& ke
                     std::nullopt};
 
   double build_ms = 0, upload_ms = 0;
-  std::vector<std::uint32_t> roots(packed.meshes.size(), FACET_NONE);
-  std::vector<std::uint32_t> depths(packed.meshes.size(), 0);
+  std::vector<std::optional<built_tree>> trees(packed.meshes.size());
   for (std::size_t k = 0; k < packed.meshes.size(); ++k) {
     const packed_mesh& m = packed.meshes[k];
     if (m.triangle_count == 0) continue;
@@ -177,6 +206,8 @@ device_geometry build_geometry(runtime::queue& q, const runtime::source_tree& ke
     runtime::buffer<texel> corners(packed.corners.data() + first, size);
     runtime::buffer<std::uint32_t> materials(packed.triangle_materials.data() + m.first_triangle,
                                              m.triangle_count);
+    build.touch(corners);
+    build.touch(materials);
     q.wait_and_throw();
     upload_ms += milliseconds_since(start_upload);
 
@@ -185,14 +216,17 @@ device_geometry build_geometry(runtime::queue& q, const runtime::source_tree& ke
     if (kind == tree_kind::none) {
       order = identity_order(m.triangle_count);
     } else {
-      binary_tree tree =
-          k < given.size()
-              ? build.from(given[k], std::span<const texel>(packed.corners).subspan(first, size))
-              : build.over_triangles(corners, m.triangle_count);
-      roots[k] = build.emit(tree, g.nodes, t.leaf_size, m.first_triangle, m.first_triangle);
-      depths[k] = tree.depth;
-      order = tree.order;
-      g.nodes_used += 2 * std::uint64_t(m.triangle_count) - 1;
+      if (kind == tree_kind::binned && k >= given.size()) {
+        trees[k] = builder.build(corners, m.triangle_count);
+      } else {
+        binary_tree tree =
+            k < given.size()
+                ? build.from(given[k], std::span<const texel>(packed.corners).subspan(first, size))
+                : build.over_triangles(corners, m.triangle_count);
+        trees[k] = build.emit(tree, t.leaf_size);
+      }
+      order = trees[k]->order;
+      g.nodes_used += trees[k]->node_count;
     }
     build.gather(order, corners, materials, g, m.triangle_count, m.first_triangle);
     if (smooth) {
@@ -204,27 +238,46 @@ device_geometry build_geometry(runtime::queue& q, const runtime::source_tree& ke
   }
 
   const auto start_top = clock::now();
-  std::uint32_t mesh_depth = 0;
   std::vector<Instance>& placed = packed.instances;
-  for (std::size_t i = 0; i < placed.size(); ++i) {
-    const std::uint32_t k = packed.instance_meshes[i];
-    placed[i].root = roots[k];
-    mesh_depth = std::max(mesh_depth, depths[k]);
-  }
-  if (!f.instances) {
-    packed.world.root = placed.empty() ? FACET_NONE : placed[0].root;
-    g.depth = mesh_depth;
-  } else if (kind != tree_kind::none && !placed.empty()) {
-    binary_tree top = build.over_instances(placed);
-    packed.world.root = build.emit(top, g.nodes, 1, packed.world.triangle_count, 0);
-    g.nodes_used += 2 * std::uint64_t(placed.size()) - 1;
-    const runtime::host_accessor order{top.order, runtime::read_only};
+  std::optional<built_tree> top;
+  if (f.instances && kind != tree_kind::none && !placed.empty()) {
+    binary_tree over = build.over_instances(placed);
+    top = build.emit(over, 1);
+    g.nodes_used += top->node_count;
+    const runtime::host_accessor order{top->order, runtime::read_only};
     std::vector<Instance> sorted;
     for (std::size_t i = 0; i < placed.size(); ++i) sorted.push_back(placed[order[i]]);
+    std::vector<std::uint32_t> meshes;
+    for (std::size_t i = 0; i < placed.size(); ++i)
+      meshes.push_back(packed.instance_meshes[order[i]]);
     placed = std::move(sorted);
-    g.depth = top.depth + mesh_depth;
+    packed.instance_meshes = std::move(meshes);
   }
-  // cl/search_narrow.h: one entry a level of either tree, and one where an instance is entered.
+  // One tree stays where it was built; several are put into one array.
+  const bool is_one = !top && packed.meshes.size() == 1;
+  if (is_one && trees[0])
+    g.nodes = trees[0]->nodes;
+  else
+    g.nodes = runtime::buffer<Node>(std::max<std::size_t>(1, g.nodes_used));
+  std::vector<std::uint32_t> roots(packed.meshes.size(), FACET_NONE);
+  std::uint32_t node = 0, mesh_depth = 0;
+  for (std::size_t k = 0; k < trees.size(); ++k) {
+    if (!trees[k]) continue;
+    const std::uint32_t slot = packed.meshes[k].first_triangle;
+    if (!is_one) build.append(*trees[k], g.nodes, node, slot);
+    roots[k] = trees[k]->root + (trees[k]->root & FACET_LEAF_BIT ? slot : node);
+    node += trees[k]->node_count;
+    mesh_depth = std::max(mesh_depth, trees[k]->depth);
+  }
+  for (std::size_t i = 0; i < placed.size(); ++i) placed[i].root = roots[packed.instance_meshes[i]];
+  if (top) {
+    build.append(*top, g.nodes, node, 0);
+    packed.world.root = top->root + (top->root & FACET_LEAF_BIT ? 0 : node);
+  } else if (!f.instances) {
+    packed.world.root = placed.empty() ? FACET_NONE : placed[0].root;
+  }
+  g.depth = mesh_depth + (top ? top->depth : 0);
+  // cl/search_narrow.h: one entry a node on the way down, and one where an instance is entered.
   g.stack = g.depth + (f.instances ? 1 : 0);
   if (!placed.empty()) g.instances = runtime::buffer<Instance>(placed.data(), placed.size());
   g.world = runtime::buffer<World>(&packed.world, 1);

@@ -16,6 +16,13 @@ tuning tuning_for(const runtime::device& d) {
   t.hardware_minmax = d.is_gpu();
   t.wide_layout = !d.is_gpu();
   t.sort = sort_tuning_for(d);
+  t.bounds_groups = 4 * d.max_compute_units();
+  if (d.is_gpu()) {
+    t.bounds_group = 256;
+    t.serial_trees = false;
+    t.list_group = 256;
+    t.list_tile = 1024;
+  }
   return t;
 }
 

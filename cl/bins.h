@@ -1,0 +1,42 @@
+// Splits of many items by the surface area heuristic over bins (Wald, "On fast construction of SAH-based
+// bounding volume hierarchies", 2007).
+#ifndef FACET_BINS_H
+#define FACET_BINS_H
+
+#include "bounds.h"
+
+#define BINS 16u
+// A bin in memory: lo, hi as ordered integers, weight, items.
+#define BIN_WORDS 8u
+#define ALL_BIN_WORDS (3u * BINS * BIN_WORDS)
+
+// Deeper ranges are halved by their items' indices: that ends after as many levels as an index has bits.
+#define TOP_SWEPT_DEPTH 48u
+
+// Floats as integers in the same order, so that atomics can bound them.
+static inline uint ordered(float x) {
+  const uint bits = as_uint(x);
+  return bits ^ ((bits >> 31) != 0u ? 0xffffffffu : 0x80000000u);
+}
+static inline float unordered(uint x) {
+  return as_float(x ^ ((x >> 31) != 0u ? 0x80000000u : 0xffffffffu));
+}
+#define ORDERED_LEAST 0u
+#define ORDERED_MOST 0xffffffffu
+
+static inline Bounds item_bounds(__global const Item* i) {
+  Bounds b;
+  b.lo = vec_global(i->lo);
+  b.hi = vec_global(i->hi);
+  return b;
+}
+
+// An axis' bins lie between lo and hi; without extent, or beyond what a float can hold, all is in bin 0.
+static inline uint bin_of(float centre, float lo, float hi) {
+  const float at = (centre - lo) / (hi - lo) * (float)BINS;
+  return (uint)smaller(larger(at, 0.0f), (float)(BINS - 1u));
+}
+
+#define SPLIT_BY_INDEX 3u  // an axis of its own
+
+#endif

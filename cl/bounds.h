@@ -1,0 +1,62 @@
+// Boxes, and what trees are built over: triangles by their corners, or boxes.
+#ifndef FACET_BOUNDS_H
+#define FACET_BOUNDS_H
+
+#include "vec.h"
+
+typedef struct {
+  float3 lo, hi;
+} Bounds;
+
+static inline Bounds no_bounds(void) {
+  Bounds b;
+  b.lo = (float3)(INFINITY);
+  b.hi = (float3)(-INFINITY);
+  return b;
+}
+
+static inline Bounds joined(Bounds a, Bounds b) {
+  Bounds c;
+  c.lo = smaller3(a.lo, b.lo);
+  c.hi = larger3(a.hi, b.hi);
+  return c;
+}
+
+// Half the surface. The order of the operations is part of every tree: builders that work by other
+// means get the same bits (cl/serial_tree.cl).
+static inline float half_area(Bounds b) {
+  const float3 e = b.hi - b.lo;
+  return (e.x * e.y + e.y * e.z) + e.z * e.x;
+}
+
+// What splitting costs. A sum that is not a number or overflows costs more than all others.
+static inline float split_cost(Bounds left, float left_weight, Bounds right, float right_weight) {
+  const float cost = half_area(left) * left_weight + half_area(right) * right_weight;
+  return cost < INFINITY ? cost : INFINITY;
+}
+
+// Twice the centre.
+static inline float3 centre2(Bounds b) { return b.lo + b.hi; }
+
+#ifdef FACET_OVER_BOXES
+#define PRIMITIVES __global const Box* restrict
+static inline Bounds bounds_at(PRIMITIVES boxes, uint i) {
+  Bounds b;
+  b.lo = vec_global(boxes[i].lo);
+  b.hi = vec_global(boxes[i].hi);
+  return b;
+}
+#else
+// Three corners in a row.
+#define PRIMITIVES __global const float4* restrict
+static inline Bounds bounds_at(PRIMITIVES corners, uint i) {
+  const float3 p = corners[3 * (size_t)i].xyz, q = corners[3 * (size_t)i + 1].xyz,
+               r = corners[3 * (size_t)i + 2].xyz;
+  Bounds b;
+  b.lo = smaller3(smaller3(p, q), r);
+  b.hi = larger3(larger3(p, q), r);
+  return b;
+}
+#endif
+
+#endif

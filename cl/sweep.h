@@ -1,0 +1,215 @@
+// A tree over up to 32 boxes by the surface area heuristic (MacDonald and Booth 1990), all splits of all
+// axes tried, by a group of 32 work-items that splits a whole level at once.
+//
+// Each work-item holds the place of one box, and tries the splits where the boxes whose centres are not
+// beyond its own go left: of three axes. Boxes of one node are neighbours; a split puts those that go left
+// before the others, each side in its old order.
+//
+// The tree depends on the boxes and their ties alone: of splits that cost the same the one with the
+// lowest axis comes first, then the one with the fewest boxes on the left. cl/serial_tree.cl gets the
+// same tree.
+#ifndef FACET_SWEEP_H
+#define FACET_SWEEP_H
+
+#include "bounds.h"
+
+#define SWEEP_MOST 32u
+
+// A subtree of up to LEAF_SURE boxes is a leaf, one of up to LEAF_MOST if testing all of them costs no more
+// than visiting its children; each at least 1.
+#ifndef LEAF_SURE
+#define LEAF_SURE 2u
+#endif
+#ifndef LEAF_MOST
+#define LEAF_MOST 4u
+#endif
+
+// Words of local memory, in the order in which they stand.
+#define SWEEP_BOX 0u        // [6][32] floats
+#define SWEEP_TIE 192u      // which of two boxes with one centre is the lower
+#define SWEEP_WEIGHT 224u   // what a box counts in the heuristic
+#define SWEEP_COST 256u     // the best split that a place has found: its cost, ...
+#define SWEEP_KEY 288u      // ... axis and boxes on the left
+#define SWEEP_MASK 320u     // places that ..., one word a purpose
+#define SWEEP_NODES 324u    // [31][16]: finished nodes
+#define SWEEP_WORDS 820u
+
+#define NODE_CHILD 12u  // words of a Node before its children
+#define NO_LINK 0xffffffffu
+
+static inline Bounds sweep_box(__local const float* box, uint i) {
+  Bounds b;
+  b.lo = (float3)(box[i], box[32u + i], box[64u + i]);
+  b.hi = (float3)(box[96u + i], box[128u + i], box[160u + i]);
+  return b;
+}
+
+static inline void put_sweep_box(__local float* box, uint i, Bounds b) {
+  box[i] = b.lo.x, box[32u + i] = b.lo.y, box[64u + i] = b.lo.z;
+  box[96u + i] = b.hi.x, box[128u + i] = b.hi.y, box[160u + i] = b.hi.z;
+}
+
+static inline void put_child_bounds(__local uint* node, uint side, Bounds b) {
+  node[side] = as_uint(b.lo.x), node[2u + side] = as_uint(b.hi.x);
+  node[4u + side] = as_uint(b.lo.y), node[6u + side] = as_uint(b.hi.y);
+  node[8u + side] = as_uint(b.lo.z), node[10u + side] = as_uint(b.hi.z);
+}
+
+typedef struct {
+  Bounds left, right;
+  float left_weight, right_weight;
+  uint left_count;
+} Sides2;
+
+static inline void take_side(Sides2* s, bool is_left, Bounds b, float weight) {
+  if (is_left) {
+    s->left = joined(s->left, b);
+    s->left_weight += weight;
+    ++s->left_count;
+  } else {
+    s->right = joined(s->right, b);
+    s->right_weight += weight;
+  }
+}
+
+static inline Sides2 no_sides(void) {
+  Sides2 s;
+  s.left = s.right = no_bounds();
+  s.left_weight = s.right_weight = 0.0f;
+  s.left_count = 0u;
+  return s;
+}
+
+typedef struct {
+  float cost;
+  uint key;  // axis, and below it how many boxes are on the left
+  Sides2 sides;
+} Split;
+
+static inline void better_split(Split* best, uint axis, Sides2 sides) {
+  const float cost = split_cost(sides.left, sides.left_weight, sides.right, sides.right_weight);
+  const uint key = axis << 8 | sides.left_count;
+  if (sides.left_count == 0u || cost > best->cost || (cost == best->cost && key > best->key)) return;
+  best->cost = cost;
+  best->key = key;
+  best->sides = sides;
+}
+
+// The best split of places begin .. end - 1 that parts them before those that are not below place `own`.
+static inline Split best_split_at(__local const uint* pool, uint begin, uint end, uint own) {
+  __local const float* box = (__local const float*)pool;
+  const float3 here = centre2(sweep_box(box, own));
+  const uint tie = pool[SWEEP_TIE + own];
+  Sides2 x = no_sides(), y = no_sides(), z = no_sides();
+  for (uint i = begin; i < end; ++i) {
+    const Bounds b = sweep_box(box, i);
+    const float3 c = centre2(b);
+    const float weight = (float)pool[SWEEP_WEIGHT + i];
+    const bool is_lower = pool[SWEEP_TIE + i] < tie;
+    take_side(&x, c.x < here.x || (c.x == here.x && is_lower), b, weight);
+    take_side(&y, c.y < here.y || (c.y == here.y && is_lower), b, weight);
+    take_side(&z, c.z < here.z || (c.z == here.z && is_lower), b, weight);
+  }
+  Split best;
+  best.cost = INFINITY;
+  best.key = 0xffffffffu;
+  best.sides = x;
+  better_split(&best, 0u, x);
+  better_split(&best, 1u, y);
+  better_split(&best, 2u, z);
+  return best;
+}
+
+static inline bool is_below(__local const uint* pool, uint a, uint b, uint axis) {
+  __local const float* box = (__local const float*)pool;
+  const float ca = box[axis * 32u + a] + box[(axis + 3u) * 32u + a],
+              cb = box[axis * 32u + b] + box[(axis + 3u) * 32u + b];
+  return ca < cb || (ca == cb && pool[SWEEP_TIE + a] < pool[SWEEP_TIE + b]);
+}
+
+// What a place knows of the tree once it is finished.
+typedef struct {
+  uint leaf_begin, leaf_count;  // of its leaf; `link` says which child that is
+  uint link;                    // 2 * node + side, or NO_LINK: the root is a leaf
+  uint depth;                   // nodes above the leaf
+  uint moved_from;              // where its box stood before
+  uint nodes;                   // of the whole tree
+} Swept;
+
+// All work-items call this together; boxes, ties and weights are those of places 0 .. count - 1. The
+// nodes' children are numbered from `base` on where they are nodes; leaves are left for the caller.
+static inline Swept sweep_tree(uint lane, uint count, uint base, __local uint* pool) {
+  __local float* box = (__local float*)pool;
+  const uint below = (1u << lane) - 1u;
+  Swept t;
+  t.nodes = 0u;
+  t.link = NO_LINK;
+  t.depth = 0u;
+  t.moved_from = lane;
+  uint begin = 0u, end = count;
+  bool is_open = lane < count;
+  for (uint level = 0u; level < SWEEP_MOST; ++level) {
+    barrier(CLK_LOCAL_MEM_FENCE);
+    if (lane < 2u) pool[SWEEP_MASK + lane] = 0u;
+    is_open = is_open && end - begin > LEAF_SURE;
+    Split own;
+    own.cost = INFINITY;
+    own.key = 0xffffffffu;
+    if (is_open) own = best_split_at(pool, begin, end, lane);
+    pool[SWEEP_COST + lane] = as_uint(own.cost);
+    pool[SWEEP_KEY + lane] = own.key;
+    barrier(CLK_LOCAL_MEM_FENCE);
+
+    uint winner = begin;
+    if (is_open) {
+      for (uint i = begin + 1u; i < end; ++i) {
+        const float a = as_float(pool[SWEEP_COST + i]), b = as_float(pool[SWEEP_COST + winner]);
+        if (a < b || (a == b && pool[SWEEP_KEY + i] < pool[SWEEP_KEY + winner])) winner = i;
+      }
+      if (end - begin <= LEAF_MOST) {
+        Bounds all = sweep_box(box, begin);
+        for (uint i = begin + 1u; i < end; ++i) all = joined(all, sweep_box(box, i));
+        is_open = half_area(all) * (float)(end - begin - 1u) > as_float(pool[SWEEP_COST + winner]);
+      }
+    }
+    const uint key = is_open ? pool[SWEEP_KEY + winner] : 0u;
+    const bool goes_left = is_open && is_below(pool, lane, winner, key >> 8);
+    if (is_open && lane == begin) atomic_or(&pool[SWEEP_MASK], 1u << lane);
+    if (goes_left) atomic_or(&pool[SWEEP_MASK + 1u], 1u << lane);
+    barrier(CLK_LOCAL_MEM_FENCE);
+
+    const uint split = pool[SWEEP_MASK], lefts = pool[SWEEP_MASK + 1u];
+    if (split == 0u) break;
+    uint to = lane;
+    const Bounds moved = sweep_box(box, lane);
+    const uint tie = pool[SWEEP_TIE + lane], weight = pool[SWEEP_WEIGHT + lane];
+    if (is_open) {
+      const uint node = t.nodes + popcount(split & ((1u << begin) - 1u));
+      if (lane == winner) {
+        put_child_bounds(pool + SWEEP_NODES + 16u * node, 0u, own.sides.left);
+        put_child_bounds(pool + SWEEP_NODES + 16u * node, 1u, own.sides.right);
+      }
+      if (lane == begin && t.link != NO_LINK)
+        pool[SWEEP_NODES + 16u * (t.link >> 1) + NODE_CHILD + (t.link & 1u)] = base + node;
+      const uint left_count = key & 255u, before = below & ~((1u << begin) - 1u);
+      to = goes_left ? begin + popcount(lefts & before) : begin + left_count + popcount(~lefts & before);
+      const bool is_right = lane >= begin + left_count;
+      if (is_right) begin += left_count;
+      else end = begin + left_count;
+      t.link = 2u * node + (is_right ? 1u : 0u);
+      ++t.depth;
+    }
+    t.nodes += popcount(split);
+    pool[SWEEP_COST + to] = t.moved_from;
+    barrier(CLK_LOCAL_MEM_FENCE);
+    put_sweep_box(box, to, moved);
+    pool[SWEEP_TIE + to] = tie;
+    pool[SWEEP_WEIGHT + to] = weight;
+    t.moved_from = pool[SWEEP_COST + lane];
+  }
+  t.leaf_begin = begin;
+  t.leaf_count = end - begin;
+  return t;
+}
+
+#endif

@@ -1,0 +1,54 @@
+#include "tracer/subtrees.hpp"
+
+#include "tracer/kernels.hpp"
+#include "tracer/launch.hpp"
+
+namespace facet::tracer {
+
+subtrees::subtrees(const runtime::queue& q, const runtime::source_tree& kernels, const tuning& t,
+                   std::uint32_t most)
+    : queue_(q),
+      group_(t.list_group),
+      tile_(t.list_tile),
+      program_(
+          compiled(q, kernels, "subtrees.cl", t.flags() + " -DMOST=" + std::to_string(most) + "u")),
+      count_(program_.get_kernel("count_subtrees")),
+      scan_(program_.get_kernel("scan_tiles")),
+      list_(program_.get_kernel("list_subtrees")) {}
+
+std::uint32_t subtrees::list(runtime::buffer<std::uint32_t>& codes, std::uint32_t count,
+                             std::vector<sort_step>& steps) {
+  const std::uint32_t tiles = (count + tile_ - 1) / tile_;
+  hold(counts_, tiles);
+  steps.push_back({"count_subtrees", queue_.submit([&](runtime::handler& h) {
+                     const runtime::accessor in{codes, h, runtime::read_only};
+                     const runtime::accessor out{counts_, h, runtime::write_only};
+                     h.set_args(in, out, count, tile_,
+                                runtime::local_accessor<std::uint32_t>(1, h));
+                     h.parallel_for(in_groups(tiles, group_), count_);
+                   })});
+  steps.push_back({"scan_tiles", queue_.submit([&](runtime::handler& h) {
+                     const runtime::accessor counts{counts_, h, runtime::read_write};
+                     const runtime::accessor total{total_, h, runtime::write_only};
+                     const runtime::local_accessor<std::uint32_t> sums(group_, h);
+                     h.set_args(counts, total, tiles, sums);
+                     h.parallel_for(in_groups(1, group_), scan_);
+                   })});
+  std::uint32_t found = 0;
+  {
+    const runtime::host_accessor total{total_, runtime::read_only};
+    found = total[0];
+  }
+  hold(starts_, std::size_t(found) + 1);
+  steps.push_back({"list_subtrees", queue_.submit([&](runtime::handler& h) {
+                     const runtime::accessor in{codes, h, runtime::read_only};
+                     const runtime::accessor counts{counts_, h, runtime::read_only};
+                     const runtime::accessor out{starts_, h, runtime::write_only};
+                     const runtime::local_accessor<std::uint32_t> sums(group_, h);
+                     h.set_args(in, counts, out, count, tile_, sums);
+                     h.parallel_for(in_groups(tiles, group_), list_);
+                   })});
+  return found;
+}
+
+}  // namespace facet::tracer

@@ -1,0 +1,35 @@
+// Where the largest subtrees of a radix tree begin that have at most so many places
+// (cl/subtrees.cl).
+#pragma once
+
+#include <cstdint>
+
+#include "runtime/runtime.hpp"
+#include "tracer/sort_way.hpp"
+#include "tracer/tuning.hpp"
+
+namespace facet::tracer {
+
+class subtrees {
+ public:
+  /// most: places of a subtree, at most.
+  subtrees(const runtime::queue& q, const runtime::source_tree& kernels, const tuning& t,
+           std::uint32_t most);
+
+  /// Lists them for `count` > 0 sorted codes and returns how many there are: subtree k has the
+  /// places starts()[k] to starts()[k + 1] - 1. Waits for the device.
+  std::uint32_t list(runtime::buffer<std::uint32_t>& codes, std::uint32_t count,
+                     std::vector<sort_step>& steps);
+  runtime::buffer<std::uint32_t>& starts() { return starts_; }
+
+  double compile_ms() const { return program_.build_ms(); }
+
+ private:
+  runtime::queue queue_;
+  std::uint32_t group_, tile_;
+  runtime::buffer<std::uint32_t> counts_{1}, starts_{1}, total_{1};
+  runtime::program program_;
+  runtime::kernel count_, scan_, list_;
+};
+
+}  // namespace facet::tracer
