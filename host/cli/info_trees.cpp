@@ -30,11 +30,11 @@ std::string overlap_text(const study::end_point_overlap& o) {
 
 void print_line(const std::string& name, const study::measured_tree& t) {
   const study::tree_quality& q = t.as_traced;
-  std::printf("  %-9s %8.2f %7s %8.2f %7s %15s %7s %6u %10llu %10llu %7.2f %5u %8.1f\n",
+  std::printf("  %-9s %8.2f %7s %8.2f %7s %7.2f %15s %7s %6u %10llu %10llu %7.2f %5u %8.1f\n",
               name.c_str(), t.binary_cost, ratio(t.binary_cost, t.sweep_binary_cost).c_str(),
-              q.sah_cost, ratio(q.sah_cost, t.sweep_cost).c_str(), overlap_text(t.overlap).c_str(),
-              ratio(t.overlap.value, t.sweep_overlap).c_str(), q.depth,
-              static_cast<unsigned long long>(q.inner_nodes),
+              q.sah_cost, ratio(q.sah_cost, t.sweep_cost).c_str(), q.visits,
+              overlap_text(t.overlap).c_str(), ratio(t.overlap.value, t.sweep_overlap).c_str(),
+              q.depth, static_cast<unsigned long long>(q.inner_nodes),
               static_cast<unsigned long long>(q.leaves), q.primitives_a_leaf(), q.most_in_leaf,
               q.bytes_a_primitive);
 }
@@ -48,9 +48,9 @@ void print_mesh(const study::trees_result& r, std::size_t k) {
 }
 
 void print_table(const study::trees_result& r) {
-  std::printf("  %-9s %8s %7s %8s %7s %15s %7s %6s %10s %10s %7s %5s %8s\n", "tree", "binary",
-              "/sweep", r.makers[0].layout.c_str(), "/sweep", "overlap", "/sweep", "depth", "nodes",
-              "leaves", "a leaf", "most", "bytes/t");
+  std::printf("  %-9s %8s %7s %8s %7s %7s %15s %7s %6s %10s %10s %7s %5s %8s\n", "tree", "binary",
+              "/sweep", r.makers[0].layout.c_str(), "/sweep", "visits", "overlap", "/sweep",
+              "depth", "nodes", "leaves", "a leaf", "most", "bytes/t");
   for (std::size_t k = 0; k < r.meshes.size() && k < shown; ++k) print_mesh(r, k);
   if (r.meshes.size() > shown)
     std::printf("... and %zu more meshes, which the file of --json has\n", r.meshes.size() - shown);
@@ -63,13 +63,15 @@ void print_table(const study::trees_result& r) {
   std::printf(
       "binary: SAH cost of the tree that the layout is folded from, with the best leaves of up to\n"
       "%u triangles; %s: SAH cost of the nodes as they are traced. A node and a triangle cost 1.\n"
-      "/sweep: by that of the full sweep's tree in the same form. overlap: end-point overlap "
-      "(Aila,\n"
-      "Karras and Laine 2013)%s. bytes/t: what rays may read, a triangle.\n",
+      "/sweep: by that of the full sweep's tree in the same form. visits: the cost as traced if a "
+      "leaf\n"
+      "is 1, as the wide layout tests it. overlap: end-point overlap (Aila, Karras and Laine "
+      "2013)%s.\n"
+      "bytes/t: what rays may read, a triangle.\n",
       r.settings.most_in_leaf, r.makers[0].layout.c_str(),
       r.makers[0].meshes.empty() || !r.makers[0].meshes[0].overlap.is_sampled
           ? ""
-          : ", +- a standard error");
+          : ",\n+- a standard error");
 }
 
 }  // namespace

@@ -25,6 +25,7 @@ json ratio(double of, double to) { return to > 0 ? json(of / to) : json(nullptr)
 
 json to_json(const tree_quality& q) {
   return {{"sah_cost", q.sah_cost},
+          {"visits", q.visits},
           {"inner_nodes", q.inner_nodes},
           {"leaves", q.leaves},
           {"depth", q.depth},

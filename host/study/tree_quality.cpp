@@ -23,10 +23,11 @@ tree_quality quality_of(const tracer::plain_tree& t) {
   if (t.nodes.empty()) return q;
   const double whole = root_area(t);
   std::vector<std::uint32_t> depth(t.nodes.size(), 0);
-  double sum = 0;
+  double sum = 0, areas = 0;
   for (std::size_t i = 0; i < t.nodes.size(); ++i) {  // parents first
     const node& n = t.nodes[i];
     const double a = i == 0 ? whole : area(n.box);
+    areas += a;
     if (n.is_leaf) {
       sum += a * n.count;
       ++q.leaves;
@@ -39,7 +40,7 @@ tree_quality quality_of(const tracer::plain_tree& t) {
       for (std::uint32_t c = 0; c < n.count; ++c) depth[n.first + c] = depth[i] + 1;
     }
   }
-  q.sah_cost = whole > 0 ? sum / whole : 0;
+  if (whole > 0) q.sah_cost = sum / whole, q.visits = areas / whole;
   q.bytes_a_primitive = double(t.bytes) / double(q.primitives);
   return q;
 }

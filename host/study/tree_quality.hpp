@@ -15,6 +15,9 @@ struct tree_quality {
   /// (Goldsmith and Salmon 1987; MacDonald and Booth 1990). Trees of equally many children a node
   /// can be compared by it. 0 if the root has no area.
   double sah_cost = 0;
+  /// Sum over all nodes of A(node), by A(root), leaves like others: the visits of a random ray, and
+  /// its cost where all of a leaf is tested at once, as the wide layout does.
+  double visits = 0;
   std::uint64_t primitives = 0;
   std::uint64_t inner_nodes = 0, leaves = 0;
   std::uint32_t depth = 0;         ///< edges on the longest way down

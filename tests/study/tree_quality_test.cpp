@@ -27,6 +27,7 @@ TEST_CASE("a tree made by hand has the cost and the counts that a hand works out
   const tree_quality q = quality_of(by_hand());
   // Half areas: 21; 3, 5, 11; 3, 3. Inner nodes 21 + 11, leaves 2 * 3 + 1 * 5 + 1 * 3 + 3 * 3.
   CHECK(q.sah_cost == (21.0 + 11 + 6 + 5 + 3 + 9) / 21);
+  CHECK(q.visits == (21.0 + 3 + 5 + 11 + 3 + 3) / 21);
   CHECK(q.primitives == 7);
   CHECK(q.inner_nodes == 2);
   CHECK(q.leaves == 4);
@@ -54,6 +55,7 @@ TEST_CASE("a lone leaf costs its primitives, with or without a box; no tree and 
   t.nodes = {{{}, true, 0, 5}};
   t.primitives = {0, 1, 2, 3, 4};
   CHECK(quality_of(t).sah_cost == 5);
+  CHECK(quality_of(t).visits == 1);
   CHECK(quality_of(t).depth == 0);
   CHECK(cost_with_best_leaves(t, 4) == 5);
   CHECK(quality_of({}).sah_cost == 0);
