@@ -135,7 +135,7 @@ json row_of(const contestant& c, const std::string& mesh, std::uint64_t triangle
 
 void print(const json& row) {
   const json& b = row["build"];
-  std::printf("%-20s %10llu  %-14s %9.3f  %9.2f (%.2f-%.2f)",
+  std::printf("%-20s %10llu  %-14s %9.3f  %9.3g (%.3g-%.3g)",
               row["mesh"].get<std::string>().c_str(),
               static_cast<unsigned long long>(row["triangles"].get<std::uint64_t>()),
               row["builder"].get<std::string>().c_str(),
