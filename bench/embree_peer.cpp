@@ -12,6 +12,50 @@
 
 namespace facet::bench {
 
+namespace {
+
+void check(RTCDevice device) {
+  if (rtcGetDeviceError(device) != RTC_ERROR_NONE)
+    throw std::runtime_error("Embree refused a call");
+}
+
+RTCDevice device_with(unsigned threads) {
+  RTCDevice device = rtcNewDevice(("threads=" + std::to_string(threads)).c_str());
+  check(device);
+  return device;
+}
+
+/// A scene of one mesh; `build_seconds` leaves out the copying into Embree's buffers.
+RTCScene built_scene(RTCDevice device, const mesh& m, embree_quality quality,
+                     double& build_seconds) {
+  RTCGeometry g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  const auto copy = [&](RTCBufferType type, RTCFormat format, const auto& from,
+                        std::size_t stride) {
+    void* to =
+        rtcSetNewGeometryBuffer(g, type, 0, format, stride, from.size() * sizeof(from[0]) / stride);
+    check(device);
+    std::memcpy(to, from.data(), from.size() * sizeof(from[0]));
+  };
+  copy(RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, m.positions, 3 * sizeof(float));
+  copy(RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, m.indices, 3 * sizeof(std::uint32_t));
+  const RTCBuildQuality asked =
+      quality == embree_quality::low ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_MEDIUM;
+  RTCScene scene = nullptr;
+  build_seconds = seconds([&] {
+    rtcSetGeometryBuildQuality(g, asked);
+    rtcCommitGeometry(g);
+    scene = rtcNewScene(device);
+    rtcSetSceneBuildQuality(scene, asked);
+    rtcAttachGeometry(scene, g);
+    rtcCommitScene(scene);
+  });
+  rtcReleaseGeometry(g);
+  check(device);
+  return scene;
+}
+
+}  // namespace
+
 struct embree_peer::state {
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
@@ -21,37 +65,13 @@ struct embree_peer::state {
     if (scene) rtcReleaseScene(scene);
     if (device) rtcReleaseDevice(device);
   }
-  void check() const {
-    if (rtcGetDeviceError(device) != RTC_ERROR_NONE)
-      throw std::runtime_error("Embree refused a call");
-  }
 };
 
 std::string embree_version() { return std::string("Embree ") + RTC_VERSION_STRING; }
 
 embree_peer::embree_peer(const mesh& m, unsigned threads) : state_(std::make_unique<state>()) {
-  state_->device = rtcNewDevice(("threads=" + std::to_string(threads)).c_str());
-  state_->check();
-  RTCGeometry g = rtcNewGeometry(state_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  const auto copy = [&](RTCBufferType type, RTCFormat format, const auto& from,
-                        std::size_t stride) {
-    void* to =
-        rtcSetNewGeometryBuffer(g, type, 0, format, stride, from.size() * sizeof(from[0]) / stride);
-    state_->check();
-    std::memcpy(to, from.data(), from.size() * sizeof(from[0]));
-  };
-  copy(RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, m.positions, 3 * sizeof(float));
-  copy(RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, m.indices, 3 * sizeof(std::uint32_t));
-  state_->build = seconds([&] {
-    rtcSetGeometryBuildQuality(g, RTC_BUILD_QUALITY_MEDIUM);
-    rtcCommitGeometry(g);
-    state_->scene = rtcNewScene(state_->device);
-    rtcSetSceneBuildQuality(state_->scene, RTC_BUILD_QUALITY_MEDIUM);
-    rtcAttachGeometry(state_->scene, g);
-    rtcCommitScene(state_->scene);
-  });
-  rtcReleaseGeometry(g);
-  state_->check();
+  state_->device = device_with(threads);
+  state_->scene = built_scene(state_->device, m, embree_quality::medium, state_->build);
 }
 
 embree_peer::~embree_peer() = default;
@@ -97,6 +117,24 @@ void embree_peer::trace_part(const std::vector<ray>& rays, bool any, std::size_t
     const bool found = x.hit.geomID != RTC_INVALID_GEOMETRY_ID;
     hits[i] = found ? hit{x.ray.tfar, x.hit.u, x.hit.v, 0, x.hit.primID} : hit{r.tmax};
   }
+}
+
+struct embree_builder::state {
+  const mesh& of;
+  RTCDevice device;
+
+  ~state() { rtcReleaseDevice(device); }
+};
+
+embree_builder::embree_builder(const mesh& m, unsigned threads)
+    : state_(new state{m, device_with(threads)}) {}
+
+embree_builder::~embree_builder() = default;
+
+double embree_builder::build(embree_quality q) {
+  double taken = 0;
+  rtcReleaseScene(built_scene(state_->device, state_->of, q, taken));
+  return taken;
 }
 
 }  // namespace facet::bench

@@ -1,4 +1,4 @@
-// Embree 3, as a peer: medium quality, no robust flag, single rays.
+// Embree 3, as a peer: no robust flag, single rays; trees of medium quality where they are traced.
 #pragma once
 
 #include <memory>
@@ -29,6 +29,24 @@ class embree_peer {
  private:
   void trace_part(const std::vector<ray>& rays, bool any, std::size_t first, std::size_t last,
                   std::vector<hit>& hits) const;
+  struct state;
+  std::unique_ptr<state> state_;
+};
+
+/// `low` asks for it of scene and geometry both, so that the tree is of Morton codes.
+enum class embree_quality { low, medium };
+
+/// Builds a mesh's tree, again and again, on one device with its threads.
+class embree_builder {
+ public:
+  /// Keeps a reference. Throws std::runtime_error without Embree, or with its message.
+  embree_builder(const mesh& m, unsigned threads);
+  ~embree_builder();
+
+  /// Seconds from a mesh in Embree's own buffers until its scene is ready to be traced.
+  double build(embree_quality q);
+
+ private:
   struct state;
   std::unique_ptr<state> state_;
 };

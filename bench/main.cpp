@@ -9,6 +9,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   facet::bench::add_reference_row(app);
   facet::bench::add_trace_row(app);
+  facet::bench::add_build_row(app);
   facet::bench::add_pictures_row(app);
   facet::bench::add_exactness_row(app);
   facet::bench::add_growth_row(app);

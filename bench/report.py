@@ -4,7 +4,7 @@ file.
 
     bench/report.py RESULT.json... [--pictures PICTURE.png...] [--title TITLE] --out REPORT.html
 
-Takes what `facet sweep`, `facet accuracy` and the rows of facet_bench write, in any order. Needs
+Takes what `facet sweep`, `facet accuracy`, `facet info --tree` and the rows of facet_bench write, in any order. Needs
 Python 3.10 and matplotlib (Debian: python3-matplotlib). Exit codes are those of facet: 0 done, 2
 usage, 3 a file that cannot be told of, 6 output.
 """
@@ -29,6 +29,8 @@ SECTIONS = {
     "facet-accuracy": (1, "hard-cases", "Hard cases", report_benches.accuracy),
     "facet-bench-exactness": (1, "exactness", "What exactness costs", report_benches.exactness),
     "facet-bench-trace": (1, "tracing", "Tracing, beside a peer", report_benches.trace),
+    "facet-bench-build": (1, "building", "Building trees, beside a peer", report_benches.build),
+    "facet-trees": (1, "trees", "How good trees are", report_benches.trees),
     "facet-bench-pictures": (1, "whole-pictures", "Whole pictures", report_benches.pictures),
     "facet-bench-sort": (1, "sorting", "Sorting, beside peers", report_benches.sort),
     "facet-bench-reference": (1, "reference", "The serial reference, beside a peer",
@@ -61,7 +63,7 @@ def main(arguments):
     parser = argparse.ArgumentParser(
         description="Makes one HTML file of results and pictures, readable offline.")
     parser.add_argument("results", nargs="+", metavar="RESULT.json",
-                        help="of facet sweep, facet accuracy and facet_bench")
+                        help="of facet sweep, facet accuracy, facet info --tree and facet_bench")
     parser.add_argument("--pictures", nargs="+", default=[], metavar="PICTURE.png",
                         help="PNG or SVG, shown in this order")
     parser.add_argument("--title", default="Facet: results", help="(default: Facet: results)")

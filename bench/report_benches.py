@@ -130,6 +130,60 @@ def _ratio(node):
     return f"{median} {ends(least, most)}"
 
 
+def build(root, _):
+    rows = []
+    for r in root["results"].items():
+        rates, ratios = r["build"], r.find("ratios")
+        against = [_ratio(ratios[peer]) if ratios and ratios.find(peer) else "\N{EN DASH}"
+                   for peer in ("embree-low", "embree-medium")]
+        seconds = _median(rates["seconds"])
+        rows.append((r["mesh"].get(str), number(r["triangles"].get(int)), r["builder"].get(str),
+                     number(1e3 * seconds.value), _rates(rates, "mtriangles_per_s"),
+                     *against, *(number(r[key].get(float)) if r.find(key) else "\N{EN DASH}"
+                                 for key in ("compile_ms", "depth")),
+                     *_costs(r.find("quality"))))
+    peer = root["peer"]["name"].get(str) if root.find("peer") else "no peer"
+    blocks = [table(f"Building trees, median (least\N{EN DASH}most); peer: {peer}; compiling is not in "
+                    "the time", ("mesh", "#triangles", "builder", "#ms", "#Mtriangles/s",
+                                 "#ratio to low quality", "#to medium", "#compiling, ms", "#depth",
+                                 "#SAH cost as traced", "#of the binary tree"), rows)]
+    return blocks + [note(f"{r['mesh'].get(str)} was refused: {r['reason'].get(str)}")
+                     for r in root["refused"].items()]
+
+
+def _costs(quality):
+    if quality is None:
+        return ("\N{EN DASH}", "\N{EN DASH}")
+    return tuple(f"{quality[key].get(float):.2f}" for key in ("sah_cost", "binary_sah_cost"))
+
+
+def trees(root, _):
+    meshes = root["scene"]["meshes"].items()
+    rows = []
+    for maker in root["builders"].items():
+        for mesh, tree in zip(meshes, maker["meshes"].items()):
+            overlap, binary = tree["end_point_overlap"], tree["binary"]
+            rows.append((mesh["name"].get(str), number(mesh["triangles"].get(int)),
+                         maker["builder"].get(str), maker["layout"].get(str),
+                         f"{binary['sah_cost'].get(float):.2f}", _over(binary),
+                         f"{tree['sah_cost'].get(float):.2f}", _over(tree),
+                         f"{overlap['value'].get(float):.3f}"
+                         + (f" \N{PLUS-MINUS SIGN} {overlap['standard_error'].get(float):.3f}"
+                            if overlap["sampled"].get(bool) else ""),
+                         tree["depth"].get(int), f"{tree['primitives_a_leaf'].get(float):.2f}",
+                         f"{tree['bytes_a_primitive'].get(float):.0f}"))
+    return [table(f"Trees of {root['scene']['name'].get(str)}: SAH cost of the binary tree and of the nodes as "
+                  "traced, each also by that of the full sweep's tree, and end-point overlap",
+                  ("mesh", "#triangles", "builder", "layout", "#binary cost", "#by the sweep's",
+                   "#as traced", "#by the sweep's, as traced", "#overlap", "#depth",
+                   "#triangles a leaf", "#bytes a triangle"), rows)]
+
+
+def _over(node):
+    ratio = node.find("sah_cost_over_sweep")
+    return f"{ratio.get(float):.3f}" if ratio else "\N{EN DASH}"
+
+
 def _off(node):
     off, unexplained = node["off"].get(int), node["unexplained"].get(int)
     return f"{off:,}" + (f", {unexplained:,} UNEXPLAINED" if unexplained else "")

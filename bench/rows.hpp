@@ -11,6 +11,9 @@ void add_reference_row(CLI::App& app);
 /// An OpenCL device against Embree: primary, shadow and bounce rays.
 void add_trace_row(CLI::App& app);
 
+/// An OpenCL device's builders of trees against Embree's.
+void add_build_row(CLI::App& app);
+
 /// The strict kernel against variants of it whose hits are not exact.
 void add_exactness_row(CLI::App& app);
 

@@ -9,9 +9,9 @@
 #include "bench/measure.hpp"
 #include "bench/result_file.hpp"
 #include "bench/rows.hpp"
-#include "reference/sah.hpp"
 #include "runtime/runtime.hpp"
 #include "study/statistics.hpp"
+#include "study/tree_makers.hpp"
 #include "tracer/tracer.hpp"
 
 namespace facet::bench {
@@ -73,18 +73,6 @@ json measure(const std::string& name, const char* kind, const std::vector<ray>& 
   return row;
 }
 
-/// A leaf holds no more triangles than either layout tests for the price of a node.
-tracer::given_tree sah_tree_of(const mesh& m) {
-  std::vector<box3f> boxes(m.triangle_count());
-  for (std::size_t t = 0; t < boxes.size(); ++t)
-    for (int corner = 0; corner < 3; ++corner) boxes[t].add(m.position(t, corner));
-  const reference::sah_tree tree = reference::build_sah(boxes, 8);
-  tracer::given_tree given;
-  for (const reference::sah_node& n : tree.nodes) given.nodes.push_back({n.first, n.count});
-  given.order = tree.order;
-  return given;
-}
-
 void run(const settings& o) {
   const runtime::device device = runtime::select_device(o.device);
   runtime::queue queue(device);
@@ -92,9 +80,9 @@ void run(const settings& o) {
   options.geometry = o.geometry == "image"    ? tracer::geometry_kind::image
                      : o.geometry == "buffer" ? tracer::geometry_kind::buffer
                                               : tracer::geometry_kind::automatic;
-  options.tree = o.tree == "none"     ? tracer::tree_kind::none
-                 : o.tree == "binned" ? tracer::tree_kind::binned
-                                      : tracer::tree_kind::levels;
+  const study::tree_maker* const maker = study::tree_maker_of(o.tree);
+  options.tree =
+      o.tree == "none" ? tracer::tree_kind::none : maker->kind.value_or(tracer::tree_kind::levels);
   options.layout = o.layout == "wide"     ? tracer::layout_kind::wide
                    : o.layout == "narrow" ? tracer::layout_kind::narrow
                                           : tracer::layout_kind::automatic;
@@ -114,7 +102,8 @@ void run(const settings& o) {
     const std::string name = path.substr(path.find_last_of('/') + 1);
     const scene s = scene_of(load_workload(path));
     std::vector<tracer::given_tree> given;
-    if (o.tree == "sah") given.push_back(sah_tree_of(s.meshes[0]));
+    if (maker && !maker->kind)
+      given.push_back(study::made_by(*maker, tracer::pack(s, false).corners));
     tracer::device_scene ours(queue, s, options, given);
     std::unique_ptr<embree_peer> peer;
     if (!peer_name.empty()) peer = std::make_unique<embree_peer>(s.meshes[0], o.threads);
@@ -157,8 +146,8 @@ void add_trace_row(CLI::App& app) {
   row->add_option("--geometry", o->geometry)
       ->check(CLI::IsMember({"auto", "image", "buffer"}))
       ->capture_default_str();
-  row->add_option("--tree", o->tree, "sah: the serial reference's, made on the host")
-      ->check(CLI::IsMember({"levels", "binned", "sah", "none"}))
+  row->add_option("--tree", o->tree, "sah and sweep: the reference's, made on the host")
+      ->check(CLI::IsMember({"levels", "binned", "sah", "sweep", "none"}))
       ->capture_default_str();
   row->add_option("--layout", o->layout, "of nodes and triangles")
       ->check(CLI::IsMember({"auto", "narrow", "wide"}))

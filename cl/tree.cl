@@ -57,28 +57,3 @@ __kernel void append_nodes(__global const Node* from, __global Node* to, uint co
     n.child[c] += (n.child[c] & FACET_LEAF_BIT) != 0u ? slot_offset : node_offset;
   to[node_offset + i] = n;
 }
-
-// Puts three float4 a triangle, and what the triangle is, into leaf order; i counts from the
-// mesh's first triangle.
-__kernel void gather_triangles(__global const uint* order, __global const float4* corners,
-                               __global const uint* materials, __global float4* corners_out,
-                               __global TriangleInfo* infos, uint count, uint slot_offset) {
-  const uint i = (uint)get_global_id(0);
-  if (i >= count) return;
-  const uint from = order[i];
-  const size_t to = (size_t)slot_offset + i;
-  for (size_t c = 0; c < 3; ++c) corners_out[3 * to + c] = corners[3 * (size_t)from + c];
-  TriangleInfo info;
-  info.triangle = from;
-  info.material = materials[from];
-  info.spare[0] = info.spare[1] = 0u;
-  infos[to] = info;
-}
-
-__kernel void gather_normals(__global const uint* order, __global const float4* normals,
-                             __global float4* normals_out, uint count, uint slot_offset) {
-  const uint i = (uint)get_global_id(0);
-  if (i >= count) return;
-  const size_t to = (size_t)slot_offset + i;
-  for (size_t c = 0; c < 3; ++c) normals_out[3 * to + c] = normals[3 * (size_t)order[i] + c];
-}

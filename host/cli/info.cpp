@@ -1,12 +1,16 @@
-// facet info: what a scene holds and what it will take.
+// facet info: what a scene holds and what it will take; or, with --tree, how good its trees are.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 
 #include "cli/command.hpp"
 #include "cli/console.hpp"
-#include "scene/load.hpp"
+#include "cli/info_trees.hpp"
+#include "cli/mesh_word.hpp"
+#include "cli/options.hpp"
+#include "image/output.hpp"
 #include "scene/world_bounds.hpp"
+#include "study/tree_makers.hpp"
 #include "tracer/features.hpp"
 #include "tracer/layout.hpp"
 
@@ -88,16 +92,73 @@ void print(const scene& s) {
   for (const std::string& note : s.notes) std::printf("  %s\n", note.c_str());
 }
 
+struct arguments {
+  std::string scene;
+  trees_request trees;
+  console say;
+};
+
+/// Of all builders.
+std::string words(const char* between) {
+  std::string all;
+  for (const study::tree_maker& m : study::tree_makers())
+    all += (all.empty() ? "" : between) + m.word;
+  return all;
+}
+
+CLI::Validator known_builder() {
+  return CLI::Validator(
+      [](std::string& text) -> std::string {
+        if (study::tree_maker_of(text)) return "";
+        return "found \"" + text + "\"; allowed: " + words(", ");
+      },
+      "", "known_builder");
+}
+
 }  // namespace
 
 command add_info(CLI::App& program) {
   auto* app = program.add_subcommand("info", "What a scene holds and what it needs");
-  auto file = std::make_shared<std::string>();
-  app->add_option("SCENE", *file, "A scene: .json, .obj or .ply")->required();
-  return {app, [file] {
-            print(load_scene(*file));
-            return int(done);
-          }};
+  auto o = std::make_shared<arguments>();
+  app->add_option("SCENE", o->scene,
+                  "A scene: .json; a mesh alone: .obj, .ply; or a generator, like torus_knot")
+      ->required();
+  app->add_option("--tree", o->trees.builders,
+                  "In place of that: how good the trees of these builders are, by commas: " +
+                      words(", ") + ".\nsah and sweep are made on the host")
+      ->type_name("LIST")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(known_builder());
+  add_device(*app, o->trees.device, false);
+  add_kernels(*app, o->trees.tracer);
+  app->add_option("--samples", o->trees.samples,
+                  "Triangles that overlap is measured of, where a mesh has more (default 10000)")
+      ->type_name("N")
+      ->check(whole_number(2, 1u << 30, "triangles"));
+  app->add_option("--seed", o->trees.seed, "Of the samples (default 1)")
+      ->type_name("N")
+      ->check(whole_number(0, 0xffffffffu, ""));
+  app->add_option("--json", o->trees.json,
+                  "Write the figures to this file, as bench/facet-trees.schema.json has it")
+      ->type_name("FILE");
+  add_console(*app, o->say);
+  return {
+      app, [app, o] {
+        if (app->count("--tree") == 0)
+          for (const char* name : {"--device", "--geometry", "--layout", "--kernels",
+                                   "--all-features", "--samples", "--seed", "--json"})
+            if (app->count(name) > 0)
+              throw usage_error(std::string(name) + " has no meaning without --tree " + words("|"));
+        if (!o->trees.json.empty() && image::same_file(o->trees.json, o->scene))
+          throw usage_error("--json would overwrite the scene, " + o->scene);
+        const scene s = picture_of_word(o->scene);
+        if (app->count("--tree") > 0)
+          print_trees(s, o->trees, o->say);
+        else
+          print(s);
+        return int(done);
+      }};
 }
 
 }  // namespace facet::cli

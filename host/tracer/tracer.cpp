@@ -166,6 +166,12 @@ Faults device_scene::state::read_faults() {
   return found[0];
 }
 
+statistics device_scene::prepared() const {
+  statistics s;
+  state_->describe(s);
+  return s;
+}
+
 void device_scene::state::describe(statistics& s) const {
   const runtime::device d = queue.get_device();
   s.device = d.name();

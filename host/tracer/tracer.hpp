@@ -132,6 +132,8 @@ struct cancelled : std::runtime_error {
       : std::runtime_error("cancelled"), done(pixels_done), total(pixels_total) {}
 };
 
+struct traced_trees;  // plain_tree.hpp
+
 /// A scene on a device: packed, its tree built. Throws runtime::exception for what the device
 /// refuses (a work-group too large, memory that does not fit, a compile error), with the figures.
 class device_scene {
@@ -167,6 +169,12 @@ class device_scene {
   /// What passes along rays with unit directions from their origin to tmax (a point light there,
   /// or a directional one if it is infinite); `medium` is the material around the origins.
   std::vector<passage> passages(std::span<const ray> rays, std::uint32_t medium = miss);
+
+  /// What is known before anything is traced: device, layout, trees, times of preparation.
+  statistics prepared() const;
+
+  /// The trees that rays are led by. Throws runtime::exception (invalid) with tree_kind::none.
+  traced_trees read_trees() const;
 
  private:
   struct state;

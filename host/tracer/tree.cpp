@@ -8,6 +8,7 @@
 #include "tracer/given_tree.hpp"
 #include "tracer/kernels.hpp"
 #include "tracer/launch.hpp"
+#include "tracer/leaf_order.hpp"
 #include "tracer/stopwatch.hpp"
 #include "tracer/tree_builder.hpp"
 
@@ -60,9 +61,7 @@ class geometry_builder {
         program_(compiled(q, kernels, "tree.cl", t.flags())),
         make_nodes_(program_.get_kernel("make_nodes")),
         touch_(program_.get_kernel("touch")),
-        append_nodes_(program_.get_kernel("append_nodes")),
-        gather_triangles_(program_.get_kernel("gather_triangles")),
-        gather_normals_(program_.get_kernel("gather_normals")) {}
+        append_nodes_(program_.get_kernel("append_nodes")) {}
 
   double compile_ms() const { return binary_.compile_ms() + program_.build_ms(); }
 
@@ -81,8 +80,8 @@ class geometry_builder {
             std::uint32_t(t.order.size()), t.root, t.depth};
   }
 
-  built_tree emit(binary_tree& tree, std::uint32_t leaf_size) {
-    built_tree t{runtime::buffer<Node>(std::max(1u, tree.count - 1)), tree.order};
+  device_tree emit(binary_tree& tree, std::uint32_t leaf_size) {
+    device_tree t{runtime::buffer<Node>(std::max(1u, tree.count - 1)), tree.order};
     t.depth = tree.depth;
     if (tree.count <= leaf_size) {
       t.root = FACET_LEAF(0u, tree.count);
@@ -100,7 +99,7 @@ class geometry_builder {
   }
 
   /// Puts the tree's nodes behind the first `nodes`.
-  void append(built_tree& tree, runtime::buffer<Node>& all, std::uint32_t nodes,
+  void append(device_tree& tree, runtime::buffer<Node>& all, std::uint32_t nodes,
               std::uint32_t slots) {
     if (tree.node_count == 0) return;
     queue_.submit([&](runtime::handler& h) {
@@ -120,37 +119,12 @@ class geometry_builder {
     });
   }
 
-  void gather(runtime::buffer<std::uint32_t>& order, runtime::buffer<texel>& corners,
-              runtime::buffer<std::uint32_t>& materials, device_geometry& to, std::uint32_t count,
-              std::uint32_t slot_offset) {
-    queue_.submit([&](runtime::handler& h) {
-      const runtime::accessor from{order, h, runtime::read_only};
-      const runtime::accessor in{corners, h, runtime::read_only};
-      const runtime::accessor in_materials{materials, h, runtime::read_only};
-      const runtime::accessor out{to.corners, h, runtime::read_write};
-      const runtime::accessor infos{to.infos, h, runtime::read_write};
-      h.set_args(from, in, in_materials, out, infos, count, slot_offset);
-      h.parallel_for(padded(count, tuning_.group), gather_triangles_);
-    });
-  }
-
-  void gather_normals(runtime::buffer<std::uint32_t>& order, runtime::buffer<texel>& normals,
-                      device_geometry& to, std::uint32_t count, std::uint32_t slot_offset) {
-    queue_.submit([&](runtime::handler& h) {
-      const runtime::accessor from{order, h, runtime::read_only};
-      const runtime::accessor in{normals, h, runtime::read_only};
-      const runtime::accessor out{to.normals, h, runtime::read_write};
-      h.set_args(from, in, out, count, slot_offset);
-      h.parallel_for(padded(count, tuning_.group), gather_normals_);
-    });
-  }
-
  private:
   runtime::queue& queue_;
   const tuning& tuning_;
   binary_builder binary_;
   runtime::program program_;
-  runtime::kernel make_nodes_, touch_, append_nodes_, gather_triangles_, gather_normals_;
+  runtime::kernel make_nodes_, touch_, append_nodes_;
 };
 
 runtime::buffer<std::uint32_t> identity_order(std::uint32_t count) {
@@ -180,6 +154,7 @@ device_geometry build_geometry(runtime::queue& q, const runtime::source_tree& ke
   check_memory(q.get_device(), triangles, peak);
 
   geometry_builder build(q, kernels, t);
+  leaf_order gather(q, kernels, t);
   tree_builder<texel> builder(q, kernels, t, {t.leaf_sure, t.leaf_size});
   const std::size_t texels =
       in_images ? whole_rows(3 * triangles) : std::max<std::size_t>(1, 3 * triangles);
@@ -196,7 +171,7 @@ device_geometry build_geometry(runtime::queue& q, const runtime::source_tree& ke
                     std::nullopt};
 
   double build_ms = 0, upload_ms = 0;
-  std::vector<std::optional<built_tree>> trees(packed.meshes.size());
+  std::vector<std::optional<device_tree>> trees(packed.meshes.size());
   for (std::size_t k = 0; k < packed.meshes.size(); ++k) {
     const packed_mesh& m = packed.meshes[k];
     if (m.triangle_count == 0) continue;
@@ -217,7 +192,8 @@ device_geometry build_geometry(runtime::queue& q, const runtime::source_tree& ke
       order = identity_order(m.triangle_count);
     } else {
       if (kind == tree_kind::binned && k >= given.size()) {
-        trees[k] = builder.build(corners, m.triangle_count);
+        trees[k].emplace();
+        builder.build(corners, m.triangle_count, *trees[k]);
       } else {
         binary_tree tree =
             k < given.size()
@@ -228,10 +204,11 @@ device_geometry build_geometry(runtime::queue& q, const runtime::source_tree& ke
       order = trees[k]->order;
       g.nodes_used += trees[k]->node_count;
     }
-    build.gather(order, corners, materials, g, m.triangle_count, m.first_triangle);
+    gather.triangles(order, corners, materials, g.corners, g.infos, m.triangle_count,
+                     m.first_triangle);
     if (smooth) {
       runtime::buffer<texel> normals(packed.normals.data() + first, size);
-      build.gather_normals(order, normals, g, m.triangle_count, m.first_triangle);
+      gather.normals(order, normals, g.normals, m.triangle_count, m.first_triangle);
     }
     q.wait_and_throw();
     build_ms += milliseconds_since(start_build);
@@ -239,7 +216,7 @@ device_geometry build_geometry(runtime::queue& q, const runtime::source_tree& ke
 
   const auto start_top = clock::now();
   std::vector<Instance>& placed = packed.instances;
-  std::optional<built_tree> top;
+  std::optional<device_tree> top;
   if (f.instances && kind != tree_kind::none && !placed.empty()) {
     binary_tree over = build.over_instances(placed);
     top = build.emit(over, 1);

@@ -57,20 +57,22 @@ double tree_builder<Primitive>::compile_ms() const {
 }
 
 template <class Primitive>
-built_tree tree_builder<Primitive>::build(runtime::buffer<Primitive>& primitives,
-                                          std::uint32_t count) {
-  built_tree t = try_build(primitives, count, usual_nodes(count, leaves_));
-  if (t.node_count > t.nodes.size()) t = try_build(primitives, count, count);
-  return t;
+void tree_builder<Primitive>::build(runtime::buffer<Primitive>& primitives, std::uint32_t count,
+                                    device_tree& into) {
+  hold(into.nodes, std::max(usual_nodes(count, leaves_), 1u));
+  hold(into.order, count);
+  try_build(primitives, count, into);
+  if (into.node_count <= into.nodes.size()) return;
+  hold(into.nodes, count);
+  try_build(primitives, count, into);
 }
 
 template <class Primitive>
-built_tree tree_builder<Primitive>::try_build(runtime::buffer<Primitive>& primitives,
-                                              std::uint32_t count, std::uint32_t room) {
+void tree_builder<Primitive>::try_build(runtime::buffer<Primitive>& primitives, std::uint32_t count,
+                                        device_tree& t) {
   parts& p = *parts_;
   steps_.clear();
   hold(p.codes, count);
-  built_tree t{runtime::buffer<Node>(std::max(room, 1u)), runtime::buffer<std::uint32_t>(count)};
   p.morton_codes.codes(primitives, p.curve, p.codes, count, steps_);
   for (sort_step& s : p.sort.sort_order(p.codes, t.order, count)) steps_.push_back(std::move(s));
   const std::uint32_t found = p.cut.list(p.codes, count, steps_);
@@ -78,7 +80,7 @@ built_tree tree_builder<Primitive>::try_build(runtime::buffer<Primitive>& primit
   hold(p.refs, found);
   tree_parts to{t.nodes, p.items, p.refs};
   t.node_count = p.bottom.build(primitives, p.cut.starts(), found, t.order, to, found - 1, steps_);
-  if (t.node_count > t.nodes.size()) return t;
+  if (t.node_count > t.nodes.size()) return;
   if (found > 1) {
     t.root = 0;
     t.depth = p.top.build(p.curve, to, found, steps_);
@@ -88,7 +90,6 @@ built_tree tree_builder<Primitive>::try_build(runtime::buffer<Primitive>& primit
     t.root = refs[0];
     t.depth = items[0].size >> FACET_HEIGHT_BIT;
   }
-  return t;
 }
 
 template <class Primitive>

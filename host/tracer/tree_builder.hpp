@@ -18,10 +18,10 @@
 namespace facet::tracer {
 
 /// A child's index is larger than its parent's. `nodes` may have room for more than `node_count`.
-struct built_tree {
-  runtime::buffer<Node> nodes;
-  runtime::buffer<std::uint32_t> order;  ///< leaf place -> primitive, 1 a primitive
-  std::uint32_t root = FACET_NONE;       ///< as a child
+struct device_tree {
+  runtime::buffer<Node> nodes{1};
+  runtime::buffer<std::uint32_t> order{1};  ///< leaf place -> primitive, 1 a primitive
+  std::uint32_t root = FACET_NONE;          ///< as a child
   std::uint32_t node_count = 0;
   std::uint32_t depth = 0;  ///< nodes on the longest way down
 };
@@ -34,8 +34,9 @@ class tree_builder {
                leaf_rule leaves);
   ~tree_builder();
 
-  /// The tree over the first `count` > 0 primitives; finite ones.
-  built_tree build(runtime::buffer<Primitive>& primitives, std::uint32_t count);
+  /// The tree over the first `count` > 0 primitives; finite ones. Memory that `into` holds is used
+  /// again where it is enough.
+  void build(runtime::buffer<Primitive>& primitives, std::uint32_t count, device_tree& into);
 
   /// Bytes of device memory that a build takes at its peak beside its primitives, what it returns
   /// included.
@@ -47,8 +48,7 @@ class tree_builder {
 
  private:
   struct parts;
-  built_tree try_build(runtime::buffer<Primitive>& primitives, std::uint32_t count,
-                       std::uint32_t room);
+  void try_build(runtime::buffer<Primitive>& primitives, std::uint32_t count, device_tree& t);
 
   leaf_rule leaves_;
   std::vector<sort_step> steps_;

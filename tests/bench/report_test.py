@@ -76,6 +76,23 @@ def variants():
                   picture={"width": 64, "height": 32, "max_depth": 2, "samples": 1})
 
 
+def build():
+    ratio = {"median": 0.5, "least": 0.4, "most": 0.6}
+    return origin("facet-bench-build", peer=None, refused=[{"mesh": "soup:99", "reason": "too large"}], results=[
+        {"mesh": "terrain:9", "triangles": 162, "builder": "levels", "layout": "wide", "compile_ms": 12.0,
+         "depth": 7, "build": {"mtriangles_per_s": 0.08, "mtriangles_per_s_least": 0.07,
+                               "mtriangles_per_s_most": 0.09, "seconds": [0.002, 0.001, 0.003]},
+         "ratios": {"embree-low": ratio}, "quality": {"sah_cost": 20.5, "binary_sah_cost": 27.25}}])
+
+
+def trees():
+    tree = {"sah_cost": 22, "sah_cost_over_sweep": None, "depth": 6, "primitives_a_leaf": 5.19,
+            "bytes_a_primitive": 108.1, "binary": {"sah_cost": 31, "sah_cost_over_sweep": 1.17},
+            "end_point_overlap": {"value": 1.048, "standard_error": 0.02, "sampled": True}}
+    return origin("facet-trees", scene={"name": "hills", "meshes": [{"name": "hill", "triangles": 162}]},
+                  builders=[{"builder": "levels", "layout": "wide", "meshes": [tree]}])
+
+
 class Page(html.parser.HTMLParser):
     """What a browser would see: elements, their text, and whether they close as they opened."""
 
@@ -167,6 +184,14 @@ class Report(FilesTest):
                      "without a tree: ends before 1,000 triangles: it would take about 99 s."):
             self.assertIn(part, re.sub(r"\s+", " ", text))
 
+    def test_builds_and_trees_have_their_figures_and_what_was_refused(self):
+        text = re.sub(r"\s+", " ", self.make(self.put("b.json", build()),
+                                             self.put("t.json", trees())).text())
+        for part in ("terrain:9 162 levels 2 0.08 (0.07\N{EN DASH}0.09) 0.50 (0.40\N{EN DASH}0.60) \N{EN DASH} 12 7 "
+                     "20.50 27.25", "soup:99 was refused: too large",
+                     "hill 162 levels wide 31.00 1.170 22.00 \N{EN DASH} 1.048 \N{PLUS-MINUS SIGN} 0.020 6 5.19 108"):
+            self.assertIn(part, text)
+
     def test_variants_have_their_speed_and_errors_or_why_they_have_none(self):
         text = re.sub(r"\s+", " ", self.make(self.put("v.json", variants())).text())
         for part in ("made up, 1,234 triangles: hits",
@@ -245,6 +270,8 @@ class Report(FilesTest):
                       "--width", "16", "--repeats", "2", "--experiments", "tree", "-q"],
             "accuracy": [facet, "accuracy", "--cases", "5", "--rays", "1e3", "--mistakes", "-q"],
             "trace": [bench, "trace", "--mesh", "terrain:2", "--repeat", "1"],
+            "build": [bench, "build", "--mesh", "terrain:2", "--repeat", "2", "--quality"],
+            "trees": [facet, "info", "terrain:3", "--tree", "levels,sweep", "--samples", "9", "-q"],
             "reference": [bench, "reference", "--terrain", "2", "--soup", "0", "--repeat", "1"],
             "pictures": [bench, "pictures", knot, "--width", "32", "--repeat", "1"],
             "sort": [bench, "sort", "--count", "100", "--repeat", "2"],

@@ -1,0 +1,45 @@
+#include "tracer/leaf_order.hpp"
+
+#include "tracer/kernels.hpp"
+#include "tracer/launch.hpp"
+
+namespace facet::tracer {
+
+leaf_order::leaf_order(const runtime::queue& q, const runtime::source_tree& kernels,
+                       const tuning& t)
+    : queue_(q),
+      group_(t.group),
+      program_(compiled(q, kernels, "leaf_order.cl", t.flags())),
+      triangles_(program_.get_kernel("gather_triangles")),
+      normals_(program_.get_kernel("gather_normals")) {}
+
+runtime::event leaf_order::triangles(runtime::buffer<std::uint32_t>& order,
+                                     runtime::buffer<texel>& corners,
+                                     runtime::buffer<std::uint32_t>& materials,
+                                     runtime::buffer<texel>& corners_out,
+                                     runtime::buffer<TriangleInfo>& infos, std::uint32_t count,
+                                     std::uint32_t slot) {
+  return queue_.submit([&](runtime::handler& h) {
+    const runtime::accessor from{order, h, runtime::read_only};
+    const runtime::accessor in{corners, h, runtime::read_only};
+    const runtime::accessor in_materials{materials, h, runtime::read_only};
+    const runtime::accessor out{corners_out, h, runtime::read_write};
+    const runtime::accessor out_infos{infos, h, runtime::read_write};
+    h.set_args(from, in, in_materials, out, out_infos, count, slot);
+    h.parallel_for(padded(count, group_), triangles_);
+  });
+}
+
+void leaf_order::normals(runtime::buffer<std::uint32_t>& order, runtime::buffer<texel>& normals,
+                         runtime::buffer<texel>& normals_out, std::uint32_t count,
+                         std::uint32_t slot) {
+  queue_.submit([&](runtime::handler& h) {
+    const runtime::accessor from{order, h, runtime::read_only};
+    const runtime::accessor in{normals, h, runtime::read_only};
+    const runtime::accessor out{normals_out, h, runtime::read_write};
+    h.set_args(from, in, out, count, slot);
+    h.parallel_for(padded(count, group_), normals_);
+  });
+}
+
+}  // namespace facet::tracer
