@@ -15,10 +15,11 @@ static inline Bounds no_bounds(void) {
   return b;
 }
 
+// The zero of a bound may have either sign: it reaches no result (device.h).
 static inline Bounds joined(Bounds a, Bounds b) {
   Bounds c;
-  c.lo = smaller3(a.lo, b.lo);
-  c.hi = larger3(a.hi, b.hi);
+  c.lo = FACET_CULL_MIN(a.lo, b.lo);
+  c.hi = FACET_CULL_MAX(a.hi, b.hi);
   return c;
 }
 

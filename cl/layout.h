@@ -54,18 +54,20 @@ struct FACET_ALIGNED Item {
 struct FACET_ALIGNED TopRange {
   uint begin, end;
   uint node;
-  uint depth;         // nodes above it
-  uint parent, side;  // among the ranges of the level before: whose TopSides tell its centres
-  uint bins;          // where the range's bins are, if several groups fill them; else FACET_NONE
-  uint buffer;        // which of two its items are in
+  uint depth;  // nodes above it
+  float lo[3];
+  uint first;  // no item's index is lower, ...
+  float hi[3];  // lo to hi: where bins lie for doubled centres
+  uint last;    // ... or higher
+  uint buffer;  // which of two its items are in
+  uint spare[3];
 };
 
-// The two sides of a range that is split, [side]: bounds as order-preserving integers (cl/bins.h) of
-// boxes and of doubled centres, the smallest and the largest index, how many items.
+// The two sides of a range that is split, [side]: bounds as order-preserving integers (cl/bins.h), and
+// how many items.
 struct FACET_ALIGNED TopSides {
-  uint lo[2][3], centre_lo[2][3], first[2];
+  uint lo[2][3], hi[2][3];
   uint count[2];
-  uint hi[2][3], centre_hi[2][3], last[2];
   uint spare[2];
 };
 
@@ -283,8 +285,8 @@ typedef struct Passage Passage;
 FACET_SIZE(Box, 32)
 FACET_SIZE(Curve, 64)
 FACET_SIZE(Item, 32)
-FACET_SIZE(TopRange, 32)
-FACET_SIZE(TopSides, 128)
+FACET_SIZE(TopRange, 64)
+FACET_SIZE(TopSides, 64)
 FACET_SIZE(TreeNode, 48)
 FACET_SIZE(Node, 64)
 FACET_SIZE(WideNode, 256)

@@ -221,8 +221,8 @@ __kernel void build_bottoms(PRIMITIVES primitives, __global const uint* starts, 
 // A range of items that waits to be split.
 typedef struct {
   uint begin, end, node, depth;
-  float lo[3], hi[3];  // of its centres
-  uint first, last;    // of its indices
+  float lo[3], hi[3];  // where bins lie for doubled centres
+  uint first, last;    // between these are its items' indices
 } Waiting;
 
 typedef struct {
@@ -280,30 +280,16 @@ static inline SerialSplit best_bins(const Bins* bins) {
   return best;
 }
 
-// Moves a range's items so that those on the left come first; tells of both sides.
-static inline uint part_items(__global Item* items, const Waiting* w, uint axis, uint bin, Waiting side[2],
-                              Packed box[2]) {
-  for (uint k = 0u; k < 2u; ++k) {
-    box[k] = no_packed();
-    for (uint a = 0u; a < 3u; ++a) side[k].lo[a] = INFINITY, side[k].hi[a] = -INFINITY;
-    side[k].first = FACET_NONE, side[k].last = 0u;
-  }
+// Moves a range's items so that those on the left come first; tells of both sides' boxes.
+static inline uint part_items(__global Item* items, const Waiting* w, uint axis, uint bin, Packed box[2]) {
+  box[0] = box[1] = no_packed();
   uint next = w->begin, end = w->end;
   while (next < end) {
     const Item item = items[next];
     uint k;
     if (axis == SPLIT_BY_INDEX) k = item.index <= bin ? 0u : 1u;
     else k = bin_of(item.lo[axis] + item.hi[axis], w->lo[axis], w->hi[axis]) < bin ? 0u : 1u;
-    const Bounds b = item_bounds(&items[next]);
-    const float3 c = centre2(b);
-    const float centre[3] = {c.x, c.y, c.z};
-    box[k] = joined_packed(packed(b), box[k]);
-    for (uint a = 0u; a < 3u; ++a) {
-      side[k].lo[a] = smaller(centre[a], side[k].lo[a]);
-      side[k].hi[a] = larger(centre[a], side[k].hi[a]);
-    }
-    side[k].first = min(side[k].first, item.index);
-    side[k].last = max(side[k].last, item.index);
+    box[k] = joined_packed(packed(item_bounds(&items[next])), box[k]);
     if (k == 0u) {
       ++next;
     } else {
@@ -362,16 +348,25 @@ __kernel void build_top(__global Item* items, __global const Curve* curve, __glo
       serial_bins(items, &w, &bins);
       split = best_bins(&bins);
     }
-    if (split.axis == SPLIT_BY_INDEX) split.left = w.first + (w.last - w.first) / 2u;
-    Waiting side[2];
+    if (split.axis == SPLIT_BY_INDEX) split.left = middle_index(w.first, w.last);
     Packed box[2];
-    const uint middle = part_items(items, &w, split.axis, split.left, side, box);
-    side[0].begin = w.begin, side[0].end = middle, side[0].node = w.node + 1u;
-    side[1].begin = middle, side[1].end = w.end, side[1].node = w.node + (middle - w.begin);
+    const uint middle = part_items(items, &w, split.axis, split.left, box);
+    if (middle == w.begin || middle == w.end) {
+      Waiting same = w;
+      if (middle == w.begin) same.first = split.left + 1u;
+      else same.last = split.left;
+      stack[top++] = same;
+      continue;
+    }
+    Waiting side[2] = {w, w};
+    side[0].end = middle, side[0].node = w.node + 1u;
+    side[1].begin = middle, side[1].node = w.node + (middle - w.begin);
     Node n;
     for (uint k = 0u; k < 2u; ++k) {
       put_packed(&n, k, box[k]);
       side[k].depth = w.depth + 1u;
+      side[k].lo[0] = 2.0f * box[k].s0, side[k].lo[1] = 2.0f * box[k].s1, side[k].lo[2] = 2.0f * box[k].s2;
+      side[k].hi[0] = -2.0f * box[k].s4, side[k].hi[1] = -2.0f * box[k].s5, side[k].hi[2] = -2.0f * box[k].s6;
       n.spare[k] = 0u;
       if (side[k].end - side[k].begin == 1u) {
         n.child[k] = refs[items[side[k].begin].index];

@@ -1,34 +1,68 @@
-// Cuts the sorted places into the largest subtrees of the radix tree that have at most MOST places, and
-// lists where they begin, in order.
-#include "radix_tree.h"
-
+// Cuts the sorted places into the largest subtrees of the radix tree (Karras, "Maximizing parallelism in
+// the construction of BVHs, octrees, and k-d trees", 2012) that have at most MOST places, and lists
+// where they begin, in order.
+//
+// In that tree neighbours part at the highest bit that differs, of the code and then of the place, so
+// that equal codes have a tree, too.
 #ifndef MOST
-#define MOST 32u
+#define MOST 32
 #endif
 
-// counts[tile]: how many begin in the tile's places.
-__kernel void count_subtrees(__global const uint* codes, __global uint* counts, uint count, uint tile,
-                             __local uint* sum) {
-  const uint lid = (uint)get_local_id(0), at = (uint)get_group_id(0);
-  if (lid == 0u) sum[0] = 0u;
-  barrier(CLK_LOCAL_MEM_FENCE);
-  uint own = 0u;
-  const uint end = min((at + 1u) * tile, count);
-  for (uint i = at * tile + lid; i < end; i += (uint)get_local_size(0))
-    own += begins_subtree(codes, count, i, MOST);
-  atomic_add(&sum[0], own);
-  barrier(CLK_LOCAL_MEM_FENCE);
-  if (lid == 0u) counts[at] = sum[0];
+// How many leading bits place i has in common with place i + 1, and 1: larger where they part later; 0
+// where there is no neighbour. At most 64.
+static inline uint common_bits(__global const uint* codes, uint count, uint i) {
+  if (i >= count - 1u) return 0u;  // also i = 0 - 1
+  const uint difference = codes[i] ^ codes[i + 1u];
+  return 1u + (difference != 0u ? clz(difference) : 32u + clz(i ^ (i + 1u)));
 }
 
-// counts become the sums of those before them; total[0] is that of all. One group; sums: a word for
-// each of its work-items.
-__kernel void scan_tiles(__global uint* counts, __global uint* total, uint tiles, __local uint* sums) {
+// Whether one of the subtrees begins at a place; common[k] is of the place k - 1 further.
+static inline bool begins_subtree(__local const uchar* common) {
+  uint size = 1u;  // the first places from here on are a subtree
+  for (;;) {
+    const uint before = common[0], after = common[size];
+    if (before == 0u && after == 0u) return true;
+    // Its parent has all neighbours that have as much in common.
+    if (before >= after) {
+      uint more = 1u;
+      while (size + more <= MOST && common[-(int)more] >= before) ++more;
+      return size + more > MOST;
+    }
+    uint parent = size + 1u;
+    while (parent <= MOST && common[parent] >= after) ++parent;
+    if (parent > MOST) return true;
+    size = parent;
+  }
+}
+
+// Bits of starts[tile * TILE / 32 ..] say which of the tile's places begin one, counts[tile] how many. A
+// group takes a tile of 32 places a work-item; common: TILE + 2 * MOST bytes, bits: a word an item.
+__kernel void mark_subtrees(__global const uint* codes, __global uint* marks, __global uint* counts, uint count,
+                            __local uchar* common, __local uint* bits) {
+  const uint lid = (uint)get_local_id(0), size = (uint)get_local_size(0), at = (uint)get_group_id(0);
+  const uint tile = 32u * size, first = at * tile;
+  // common[k] is of place first + k - MOST.
+  for (uint k = lid; k < tile + 2u * MOST; k += size)
+    common[k] = (uchar)common_bits(codes, count, first + k - MOST);
+  bits[lid] = 0u;
+  barrier(CLK_LOCAL_MEM_FENCE);
+  for (uint k = lid; k < tile; k += size)
+    if (first + k < count && begins_subtree(common + MOST + k - 1u)) atomic_or(&bits[k / 32u], 1u << k % 32u);
+  barrier(CLK_LOCAL_MEM_FENCE);
+  const uint own = bits[lid];
+  marks[at * size + lid] = own;
+  barrier(CLK_LOCAL_MEM_FENCE);
+  bits[lid] = popcount(own);
+  for (uint step = size / 2u; step > 0u; step /= 2u) {
+    barrier(CLK_LOCAL_MEM_FENCE);
+    if (lid < step) bits[lid] += bits[lid + step];
+  }
+  if (lid == 0u) counts[at] = bits[0];
+}
+
+// The sum of what the work-items before this one give; sums: a word an item.
+static inline uint sum_before(uint own, __local uint* sums) {
   const uint lid = (uint)get_local_id(0), size = (uint)get_local_size(0);
-  const uint share = (tiles + size - 1u) / size;
-  const uint begin = min(lid * share, tiles), end = min(begin + share, tiles);
-  uint own = 0u;
-  for (uint i = begin; i < end; ++i) own += counts[i];
   sums[lid] = own;
   for (uint step = 1u; step < size; step *= 2u) {
     barrier(CLK_LOCAL_MEM_FENCE);
@@ -36,7 +70,18 @@ __kernel void scan_tiles(__global uint* counts, __global uint* total, uint tiles
     barrier(CLK_LOCAL_MEM_FENCE);
     sums[lid] += more;
   }
-  uint before = sums[lid] - own;
+  barrier(CLK_LOCAL_MEM_FENCE);
+  return sums[lid] - own;
+}
+
+// counts become the sums of those before them; total[0] is that of all. One group.
+__kernel void scan_tiles(__global uint* counts, __global uint* total, uint tiles, __local uint* sums) {
+  const uint lid = (uint)get_local_id(0), size = (uint)get_local_size(0);
+  const uint share = (tiles + size - 1u) / size;
+  const uint begin = min(lid * share, tiles), end = min(begin + share, tiles);
+  uint own = 0u;
+  for (uint i = begin; i < end; ++i) own += counts[i];
+  uint before = sum_before(own, sums);
   for (uint i = begin; i < end; ++i) {
     const uint here = counts[i];
     counts[i] = before;
@@ -45,26 +90,13 @@ __kernel void scan_tiles(__global uint* counts, __global uint* total, uint tiles
   if (lid == size - 1u) total[0] = before;
 }
 
-// starts[k]: where subtree k begins; starts[k + 1]: where it ends. sums: as above.
-__kernel void list_subtrees(__global const uint* codes, __global const uint* counts, __global uint* starts,
-                            uint count, uint tile, __local uint* sums) {
+// starts[k]: where subtree k begins; starts[k + 1]: where it ends.
+__kernel void list_subtrees(__global const uint* marks, __global const uint* counts, __global const uint* total,
+                            __global uint* starts, uint count, __local uint* sums) {
   const uint lid = (uint)get_local_id(0), size = (uint)get_local_size(0), at = (uint)get_group_id(0);
-  const uint end = min((at + 1u) * tile, count);
-  uint next = counts[at];
-  for (uint first = at * tile; first < end; first += size) {
-    const uint i = first + lid;
-    const uint own = i < end && begins_subtree(codes, count, i, MOST);
-    sums[lid] = own;
-    for (uint step = 1u; step < size; step *= 2u) {
-      barrier(CLK_LOCAL_MEM_FENCE);
-      const uint more = lid >= step ? sums[lid - step] : 0u;
-      barrier(CLK_LOCAL_MEM_FENCE);
-      sums[lid] += more;
-    }
-    barrier(CLK_LOCAL_MEM_FENCE);
-    if (own != 0u) starts[next + sums[lid] - 1u] = i;
-    next += sums[size - 1u];
-    barrier(CLK_LOCAL_MEM_FENCE);
-  }
-  if (lid == 0u && end == count) starts[next] = count;
+  const uint word = at * size + lid;
+  uint left = marks[word];
+  uint next = counts[at] + sum_before(popcount(left), sums);
+  for (; left != 0u; left &= left - 1u) starts[next++] = 32u * word + (31u - clz(left & -left));
+  if (word == 0u) starts[total[0]] = count;
 }

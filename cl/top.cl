@@ -1,116 +1,142 @@
-// The top tree: over the items that cl/bottom.cl leaves, from the root down, a level a launch. Work is cut
-// into tiles of a range's items, a group each. A range of one tile is split by its group; one of
-// several has its bins filled by bin_items first. Ranges of up to SWEEP_MOST items are left to
-// finish_ranges.
+// The top tree: over the items that cl/bottom.cl leaves, from the root down, a level at a time. While
+// ranges are large, several groups work on one, a tile of its items each, in three launches a level:
+// bin_tiles, move_tiles, list_ranges. Then a group splits a range, in one launch: split_ranges. Ranges of
+// up to SWEEP_MOST items are left to finish_ranges.
 //
 // The order of a range's items varies from run to run; bounds, sums and splits do not depend on it.
 #define LEAF_SURE 1u
 #define LEAF_MOST 1u
+#include "bin_split.h"
 #include "sweep.h"
-#include "bins.h"
 
-#define TILE_ITEMS (GROUP * TILE_EACH)
-#ifndef GROUP
-#define GROUP 256u
-#endif
-#ifndef TILE_EACH
-#define TILE_EACH 4u
-#endif
+#define TILE_ITEMS 1024u
 
-// What a level has, in counters + 4 * level.
+// What a level has, in counters + 2 * level.
 #define LEVEL_RANGES 0u
 #define LEVEL_TILES 1u
-#define LEVEL_BINS 2u
 // In counters + TOTALS: small ranges, and the deepest leaf.
-#define TOTALS 1024u
+#define TOTALS 512u
 
-static inline void clear_bins(__local uint* bins, uint lid) {
-  for (uint i = lid; i < ALL_BIN_WORDS; i += GROUP) {
-    const uint word = i % BIN_WORDS;
-    bins[i] = word < 3u ? ORDERED_MOST : 0u;
-  }
-}
+// Where what becomes of a split range goes.
+typedef struct {
+  __global TopRange* ranges;  // of the next level
+  __global uint* tiles;       // and its tiles, while there are any; else 0
+  __global TopSides* sides;
+  __global uint* bins;
+  __global TopRange* small;
+  __global Node* nodes;
+  __global const uint* refs;
+  __global uint* counters;
+} Lists;
 
-static inline void fill_bins(__local uint* bins, Bounds b, uint size, float3 lo, float3 hi) {
-  const float3 c = centre2(b);
-  const uint at[3] = {bin_of(c.x, lo.x, hi.x), bin_of(c.y, lo.y, hi.y), bin_of(c.z, lo.z, hi.z)};
-  for (uint axis = 0u; axis < 3u; ++axis) {
-    __local uint* bin = bins + (axis * BINS + at[axis]) * BIN_WORDS;
-    atomic_min(&bin[0], ordered(b.lo.x)), atomic_min(&bin[1], ordered(b.lo.y));
-    atomic_min(&bin[2], ordered(b.lo.z));
-    atomic_max(&bin[3], ordered(b.hi.x)), atomic_max(&bin[4], ordered(b.hi.y));
-    atomic_max(&bin[5], ordered(b.hi.z));
-    atomic_add(&bin[6], size);
-    atomic_add(&bin[7], 1u);
-  }
-}
-
-// Words of TopSides: the first ones hold what atomics make smaller, then come the counts, then what they
-// make larger.
-#define SIDES_MIN 14u
-#define SIDES_COUNT 14u
-#define SIDES_MAX 16u
-#define SIDES_END 30u
-#define SIDES_WORDS 32u
-
-static inline uint empty_side_word(uint word) { return word < SIDES_MIN ? ORDERED_MOST : ORDERED_LEAST; }
-
-static inline float3 unordered3(__global const uint* a) {
-  return (float3)(unordered(a[0]), unordered(a[1]), unordered(a[2]));
-}
-
-// The range of all items: bounds are the curve's, which hold all centres or are near them.
-__kernel void start_top(__global const Curve* curve, __global TopRange* ranges, __global TopSides* before,
-                        __global TopSides* sides, __global uint* tiles, __global uint* bins,
-                        __global TopRange* small, __global uint* counters, uint count) {
-  const uint id = (uint)get_global_id(0), ids = (uint)get_global_size(0);
-  const uint tile_count = (count + TILE_ITEMS - 1u) / TILE_ITEMS;
-  for (uint i = id; i < tile_count; i += ids) tiles[2u * i] = 0u, tiles[2u * i + 1u] = i;
-  for (uint i = id; i < ALL_BIN_WORDS; i += ids) bins[i] = i % BIN_WORDS < 3u ? ORDERED_MOST : 0u;
-  for (uint i = id; i < SIDES_WORDS; i += ids) ((__global uint*)sides)[i] = empty_side_word(i);
-  if (id != 0u) return;
-  TopRange r;
-  r.begin = 0u, r.end = count, r.node = 0u, r.depth = 0u;
-  r.parent = 0u, r.side = 0u, r.buffer = 0u;
-  r.bins = tile_count > 1u ? 0u : FACET_NONE;
-  if (count <= SWEEP_MOST) {
-    small[0] = r;
-    counters[TOTALS] = 1u;
+// next: the next level's counters.
+static inline void push_range(const Lists* to, const TopRange c, volatile __global uint* next) {
+  if (c.end - c.begin <= SWEEP_MOST) {
+    to->small[atomic_inc((volatile __global uint*)&to->counters[TOTALS])] = c;
     return;
   }
-  ranges[0] = r;
-  for (uint k = 0u; k < 3u; ++k) {
-    before->centre_lo[0][k] = ordered(curve->lo[k]);
-    before->centre_hi[0][k] = ordered(curve->hi[k]);
+  const uint at = atomic_inc(&next[LEVEL_RANGES]);
+  to->ranges[at] = c;
+  if (to->tiles == 0) return;
+  const uint tile_count = (c.end - c.begin + TILE_ITEMS - 1u) / TILE_ITEMS;
+  const uint first = atomic_add(&next[LEVEL_TILES], tile_count);
+  for (uint t = 0u; t < tile_count; ++t) {
+    to->tiles[2u * (first + t)] = at;
+    to->tiles[2u * (first + t) + 1u] = t;
   }
-  before->first[0] = 0u;
-  before->last[0] = count - 1u;
-  counters[LEVEL_RANGES] = 1u;
-  counters[LEVEL_TILES] = tile_count;
-  counters[LEVEL_BINS] = 1u;
+  for (uint i = 0u; i < 2u; ++i) to->sides[at].count[i] = 0u;
+  for (uint i = 0u; i < 6u; ++i) {
+    to->sides[at].lo[i / 3u][i % 3u] = ORDERED_MOST;
+    to->sides[at].hi[i / 3u][i % 3u] = ORDERED_LEAST;
+  }
+  for (uint i = 0u; i < ALL_BIN_WORDS; ++i) to->bins[at * ALL_BIN_WORDS + i] = empty_bin_word(i);
 }
 
-// Fills the bins of ranges of several tiles; before: the sides of the level before.
-__kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void bin_items(
-    __global const Item* items, __global const TopRange* ranges, __global const TopSides* before,
-    __global const uint* tiles, __global uint* bins, __global const uint* counters, uint level,
-    __local uint* own) {
+// Writes a split range's node and lists its two sides, whose items are in `moved`.
+static inline void list_sides(const Lists* to, const TopRange r, const TopSides s, __global const Item* moved,
+                              volatile __global uint* next) {
+  const uint left = s.count[0];
+  if (left == 0u || left == r.end - r.begin) {
+    TopRange same = r;
+    if (left == 0u) same.first = middle_index(r.first, r.last) + 1u;
+    else same.last = middle_index(r.first, r.last);
+    same.buffer ^= 1u;
+    push_range(to, same, next);
+    return;
+  }
+  Node node;
+  for (uint side = 0u; side < 2u; ++side) {
+    const Bounds b = unordered_bounds(s.lo[side], s.hi[side]);
+    node.x[0][side] = b.lo.x, node.y[0][side] = b.lo.y, node.z[0][side] = b.lo.z;
+    node.x[1][side] = b.hi.x, node.y[1][side] = b.hi.y, node.z[1][side] = b.hi.z;
+    node.spare[side] = 0u;
+    TopRange c = r;
+    if (side == 0u) c.end = r.begin + left;
+    else c.begin = r.begin + left;
+    c.node = side == 0u ? r.node + 1u : r.node + left;
+    c.depth = r.depth + 1u;
+    c.lo[0] = 2.0f * b.lo.x, c.lo[1] = 2.0f * b.lo.y, c.lo[2] = 2.0f * b.lo.z;
+    c.hi[0] = 2.0f * b.hi.x, c.hi[1] = 2.0f * b.hi.y, c.hi[2] = 2.0f * b.hi.z;
+    c.buffer = r.buffer ^ 1u;
+    node.child[side] = c.node;
+    if (c.end - c.begin > 1u) {
+      push_range(to, c, next);
+      continue;
+    }
+    node.child[side] = to->refs[moved[c.begin].index];
+    atomic_max((volatile __global uint*)&to->counters[TOTALS + 1u],
+               c.depth + FACET_HEIGHT_OF(moved[c.begin].size));
+  }
+  to->nodes[r.node] = node;
+}
+
+// The range of all items, as the only one of level 0.
+__kernel void start_top(__global const Curve* curve, __global TopRange* ranges, __global uint* tiles,
+                        __global TopSides* sides, __global uint* bins, __global TopRange* small,
+                        __global uint* counters, uint count, uint is_tiled) {
+  for (uint i = (uint)get_local_id(0); i < TOTALS + 2u; i += (uint)get_local_size(0)) counters[i] = 0u;
+  barrier(CLK_GLOBAL_MEM_FENCE);
+  if (get_local_id(0) != 0u) return;
+  TopRange r;
+  r.begin = 0u, r.end = count, r.node = 0u, r.depth = 0u;
+  for (uint k = 0u; k < 3u; ++k) r.lo[k] = curve->lo[k], r.hi[k] = curve->hi[k], r.spare[k] = 0u;
+  r.first = 0u, r.last = count - 1u, r.buffer = 0u;
+  Lists to;
+  to.ranges = ranges, to.tiles = is_tiled != 0u ? tiles : 0, to.sides = sides, to.bins = bins;
+  to.small = small, to.nodes = 0, to.refs = 0, to.counters = counters;
+  push_range(&to, r, (volatile __global uint*)counters);
+}
+
+// A tile's items are spread over its range, so that few of a group's meet at one bin.
+typedef struct {
+  uint begin, step, end;
+} Spread;
+
+static inline Spread tile_items(const TopRange* r, uint part) {
+  const uint parts = (r->end - r->begin + TILE_ITEMS - 1u) / TILE_ITEMS;
+  Spread s;
+  s.begin = r->begin + part + parts * (uint)get_local_id(0);
+  s.step = parts * GROUP;
+  s.end = r->end;
+  return s;
+}
+
+__kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void bin_tiles(
+    __global const Item* items, __global const TopRange* ranges, __global const uint* tiles,
+    __global uint* bins, __global const uint* counters, uint level, __local uint* own) {
   const uint lid = (uint)get_local_id(0), tile = (uint)get_group_id(0);
   // A group without work goes through all the same: PoCL 3.1 has trouble with barriers after a return.
-  const bool is_there = tile < counters[4u * level + LEVEL_TILES];
-  const TopRange r = ranges[is_there ? tiles[2u * tile] : 0u];
-  const bool works = is_there && r.bins != FACET_NONE;
-  clear_bins(own, lid);
+  const bool works = tile < counters[2u * level + LEVEL_TILES];
+  for (uint i = lid; i < ALL_BIN_WORDS; i += GROUP) own[i] = empty_bin_word(i);
   barrier(CLK_LOCAL_MEM_FENCE);
-  __global const TopSides* up = before + (works ? r.parent : 0u);
-  const uint side = works ? r.side : 0u;
-  const float3 lo = unordered3(up->centre_lo[side]), hi = unordered3(up->centre_hi[side]);
-  const uint begin = works ? r.begin + tiles[2u * tile + 1u] * TILE_ITEMS : 0u;
-  const uint end = works ? min(begin + TILE_ITEMS, r.end) : 0u;
-  for (uint i = begin + lid; i < end; i += GROUP)
-    fill_bins(own, item_bounds(&items[i]), FACET_SIZE_OF(items[i].size), lo, hi);
+  const uint at = works ? tiles[2u * tile] : 0u;
+  if (works) {
+    const TopRange r = ranges[at];
+    const Spread s = tile_items(&r, tiles[2u * tile + 1u]);
+    for (uint i = s.begin; i < s.end; i += s.step) fill_bins(own, &items[i], &r);
+  }
   barrier(CLK_LOCAL_MEM_FENCE);
-  volatile __global uint* to = bins + (works ? r.bins * ALL_BIN_WORDS : 0u);
+  volatile __global uint* to = bins + at * ALL_BIN_WORDS;
   for (uint i = lid; i < ALL_BIN_WORDS; i += GROUP) {
     if (own[i / BIN_WORDS * BIN_WORDS + 7u] == 0u) continue;
     const uint word = i % BIN_WORDS;
@@ -120,173 +146,98 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void bin_items(
   }
 }
 
-typedef struct {
-  Bounds bounds;
-  float weight;
-  uint items;
-} BinSum;
-
-static inline BinSum sum_bins(__local const uint* bins, uint axis, uint begin, uint end) {
-  BinSum s;
-  s.bounds = no_bounds();
-  s.items = 0u;
-  uint weight = 0u;
-  for (uint k = begin; k < end; ++k) {
-    __local const uint* bin = bins + (axis * BINS + k) * BIN_WORDS;
-    if (bin[7] == 0u) continue;
-    Bounds b;
-    b.lo = (float3)(unordered(bin[0]), unordered(bin[1]), unordered(bin[2]));
-    b.hi = (float3)(unordered(bin[3]), unordered(bin[4]), unordered(bin[5]));
-    s.bounds = joined(s.bounds, b);
-    weight += bin[6];
-    s.items += bin[7];
-  }
-  s.weight = (float)weight;
-  return s;
-}
-
-// Local memory of split_ranges, in words.
-#define SPLIT_COSTS ALL_BIN_WORDS           // one a candidate
-#define SPLIT_SIDES (SPLIT_COSTS + 3u * BINS)  // the tile's own TopSides
-#define SPLIT_CHOICE (SPLIT_SIDES + SIDES_WORDS)  // axis and bin; then each side's items of other tiles
-#define SPLIT_WORDS (SPLIT_CHOICE + 4u)
-
-static inline uint side_of(const Item item, uint axis, uint bin, float lo, float hi) {
-  if (axis == SPLIT_BY_INDEX) return item.index <= bin ? 0u : 1u;
-  return bin_of(item.lo[axis] + item.hi[axis], lo, hi) < bin ? 0u : 1u;
-}
-
-// Splits each of a level's ranges: its items move from `items` to `moved`, those on the left from the
-// range's begin on, those on the right from its end down; what the sides hold goes to `sides`.
-__kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void split_ranges(
+// Moves the items of a tile to their range's sides: those on the left from the range's begin on, those on
+// the right from its end down. What the sides hold goes to `sides`.
+__kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void move_tiles(
     __global const Item* items, __global Item* moved, __global const TopRange* ranges,
-    __global const TopSides* before, __global TopSides* sides, __global const uint* tiles,
-    __global const uint* bins, __global const uint* counters, uint level, __local uint* pool) {
+    __global const uint* tiles, __global const uint* bins, __global TopSides* sides,
+    __global const uint* counters, uint level, __local uint* pool) {
   const uint lid = (uint)get_local_id(0), tile = (uint)get_group_id(0);
-  if (tile >= counters[4u * level + LEVEL_TILES]) return;
-  const uint at = tiles[2u * tile];
+  const bool works = tile < counters[2u * level + LEVEL_TILES];
+  const uint at = works ? tiles[2u * tile] : 0u;
   const TopRange r = ranges[at];
-  __global const TopSides* up = before + r.parent;
-  const float3 lo = unordered3(up->centre_lo[r.side]), hi = unordered3(up->centre_hi[r.side]);
-  const uint begin = r.begin + tiles[2u * tile + 1u] * TILE_ITEMS, end = min(begin + TILE_ITEMS, r.end);
+  for (uint i = lid; i < ALL_BIN_WORDS; i += GROUP) pool[i] = bins[at * ALL_BIN_WORDS + i];
+  barrier(CLK_LOCAL_MEM_FENCE);
+  find_costs(pool, &r);
+  barrier(CLK_LOCAL_MEM_FENCE);
+  choose_split(pool, &r);
+  barrier(CLK_LOCAL_MEM_FENCE);
   __local uint* own = pool + SPLIT_SIDES;
-  const bool has_bins = r.bins != FACET_NONE;
-  if (!has_bins) clear_bins(pool, lid);
-  else
-    for (uint i = lid; i < ALL_BIN_WORDS; i += GROUP) pool[i] = bins[r.bins * ALL_BIN_WORDS + i];
-  if (lid < SIDES_WORDS) own[lid] = empty_side_word(lid);
-  barrier(CLK_LOCAL_MEM_FENCE);
-  if (!has_bins)
-    for (uint i = begin + lid; i < end; i += GROUP)
-      fill_bins(pool, item_bounds(&items[i]), FACET_SIZE_OF(items[i].size), lo, hi);
-  barrier(CLK_LOCAL_MEM_FENCE);
-
-  // Candidate c puts bins below c % BINS of an axis on the left.
-  if (lid < 3u * BINS) {
-    const BinSum left = sum_bins(pool, lid / BINS, 0u, lid % BINS);
-    const BinSum right = sum_bins(pool, lid / BINS, lid % BINS, BINS);
-    const bool is_split = left.items != 0u && right.items != 0u && r.depth < TOP_SWEPT_DEPTH;
-    pool[SPLIT_COSTS + lid] =
-        as_uint(is_split ? split_cost(left.bounds, left.weight, right.bounds, right.weight) : INFINITY);
+  const bool is_by_index = pool[SPLIT_CHOICE] == SPLIT_BY_INDEX;
+  Spread s = tile_items(&r, works ? tiles[2u * tile + 1u] : 0u);
+  if (!works) s.end = s.begin;
+  for (uint i = s.begin; i < s.end; i += s.step) {
+    const uint side = side_of(pool, &items[i], &r);
+    atomic_inc(&own[SIDES_COUNT + side]);
+    if (is_by_index) grow_side(own, &items[i], side);
   }
   barrier(CLK_LOCAL_MEM_FENCE);
-  if (lid == 0u) {
-    uint best = 0u;
-    for (uint c = 1u; c < 3u * BINS; ++c)
-      if (as_float(pool[SPLIT_COSTS + c]) < as_float(pool[SPLIT_COSTS + best])) best = c;
-    const bool is_by_bins = as_float(pool[SPLIT_COSTS + best]) < INFINITY;
-    pool[SPLIT_CHOICE] = is_by_bins ? best / BINS : SPLIT_BY_INDEX;
-    pool[SPLIT_CHOICE + 1u] =
-        is_by_bins ? best % BINS : up->first[r.side] + (up->last[r.side] - up->first[r.side]) / 2u;
+  if (works && lid < SIDES_COUNT + 2u) {
+    volatile __global uint* all = (volatile __global uint*)(sides + at);
+    if (lid < 6u) atomic_min(&all[lid], own[lid]);
+    else if (lid < SIDES_COUNT) atomic_max(&all[lid], own[lid]);
+    else pool[SPLIT_CHOICE + 2u + lid - SIDES_COUNT] = atomic_add(&all[lid], own[lid]);
   }
   barrier(CLK_LOCAL_MEM_FENCE);
-  const uint axis = pool[SPLIT_CHOICE], bin = pool[SPLIT_CHOICE + 1u];
-  const float axis_lo = axis == 0u ? lo.x : axis == 1u ? lo.y : lo.z,
-              axis_hi = axis == 0u ? hi.x : axis == 1u ? hi.y : hi.z;
-
-  uint rank[TILE_EACH];  // among the tile's items of its side; the side is the highest bit
-  for (uint k = 0u; k < TILE_EACH; ++k) {
-    const uint i = begin + k * GROUP + lid;
-    rank[k] = 0u;
-    if (i >= end) continue;
-    const Item item = items[i];
-    const uint side = side_of(item, axis, bin, axis_lo, axis_hi);
-    rank[k] = atomic_inc(&own[SIDES_COUNT + side]) | side << 31;
-    for (uint a = 0u; a < 3u; ++a) {
-      const uint centre = ordered(item.lo[a] + item.hi[a]);
-      atomic_min(&own[3u * side + a], ordered(item.lo[a]));
-      atomic_min(&own[6u + 3u * side + a], centre);
-      atomic_max(&own[SIDES_MAX + 3u * side + a], ordered(item.hi[a]));
-      atomic_max(&own[SIDES_MAX + 6u + 3u * side + a], centre);
-    }
-    atomic_min(&own[12u + side], item.index);
-    atomic_max(&own[SIDES_MAX + 12u + side], item.index);
-  }
-  barrier(CLK_LOCAL_MEM_FENCE);
-  volatile __global uint* all = (volatile __global uint*)(sides + at);
-  if (lid < SIDES_MIN) atomic_min(&all[lid], own[lid]);
-  else if (lid < SIDES_MAX) pool[SPLIT_CHOICE + 2u + lid - SIDES_COUNT] = atomic_add(&all[lid], own[lid]);
-  else if (lid < SIDES_END) atomic_max(&all[lid], own[lid]);
-  barrier(CLK_LOCAL_MEM_FENCE);
-  for (uint k = 0u; k < TILE_EACH; ++k) {
-    const uint i = begin + k * GROUP + lid;
-    if (i >= end) continue;
-    const uint side = rank[k] >> 31, place = (rank[k] & 0x7fffffffu) + pool[SPLIT_CHOICE + 2u + side];
+  for (uint i = s.begin; i < s.end; i += s.step) {
+    const uint side = side_of(pool, &items[i], &r), place = atomic_inc(&pool[SPLIT_CHOICE + 2u + side]);
     moved[side == 0u ? r.begin + place : r.end - 1u - place] = items[i];
   }
 }
 
-// Writes each split range's node and lists what its sides become. `level` is theirs; next_sides are made
-// ready for the next one's.
 __kernel void list_ranges(__global const Item* moved, __global const TopRange* ranges,
                           __global const TopSides* sides, __global TopRange* next_ranges,
-                          __global TopSides* next_sides, __global uint* next_tiles, __global uint* next_bins,
+                          __global uint* next_tiles, __global TopSides* next_sides, __global uint* next_bins,
                           __global TopRange* small, __global Node* nodes, __global const uint* refs,
-                          __global uint* counters, uint level) {
+                          __global uint* counters, uint level, uint is_tiled) {
   const uint at = (uint)get_global_id(0);
-  if (at >= counters[4u * level + LEVEL_RANGES]) return;
-  const TopRange r = ranges[at];
-  volatile __global uint* next = (volatile __global uint*)(counters + 4u * (level + 1u));
-  volatile __global uint* totals = (volatile __global uint*)(counters + TOTALS);
-  const uint left = sides[at].count[0];
-  Node node;
-  for (uint side = 0u; side < 2u; ++side) {
-    const float3 lo = unordered3(sides[at].lo[side]), hi = unordered3(sides[at].hi[side]);
-    node.x[0][side] = lo.x, node.y[0][side] = lo.y, node.z[0][side] = lo.z;
-    node.x[1][side] = hi.x, node.y[1][side] = hi.y, node.z[1][side] = hi.z;
-    node.spare[side] = 0u;
-    TopRange c;
-    c.begin = side == 0u ? r.begin : r.begin + left;
-    c.end = side == 0u ? r.begin + left : r.end;
-    c.node = side == 0u ? r.node + 1u : r.node + left;
-    c.depth = r.depth + 1u;
-    c.parent = at, c.side = side, c.bins = FACET_NONE, c.buffer = r.buffer ^ 1u;
-    const uint count = c.end - c.begin;
-    if (count == 1u) {
-      node.child[side] = refs[moved[c.begin].index];
-      atomic_max(&totals[1], c.depth + FACET_HEIGHT_OF(moved[c.begin].size));
-      continue;
-    }
-    node.child[side] = c.node;
-    if (count <= SWEEP_MOST) {
-      small[atomic_inc(&totals[0])] = c;
-      continue;
-    }
-    const uint to = atomic_inc(&next[LEVEL_RANGES]), tile_count = (count + TILE_ITEMS - 1u) / TILE_ITEMS;
-    if (tile_count > 1u) {
-      c.bins = atomic_inc(&next[LEVEL_BINS]);
-      __global uint* empty = next_bins + c.bins * ALL_BIN_WORDS;
-      for (uint i = 0u; i < ALL_BIN_WORDS; ++i) empty[i] = i % BIN_WORDS < 3u ? ORDERED_MOST : 0u;
-    }
-    const uint first = atomic_add(&next[LEVEL_TILES], tile_count);
-    for (uint t = 0u; t < tile_count; ++t) {
-      next_tiles[2u * (first + t)] = to;
-      next_tiles[2u * (first + t) + 1u] = t;
-    }
-    for (uint i = 0u; i < SIDES_WORDS; ++i) ((__global uint*)(next_sides + to))[i] = empty_side_word(i);
-    next_ranges[to] = c;
+  if (at >= counters[2u * level + LEVEL_RANGES]) return;
+  Lists to;
+  to.ranges = next_ranges, to.tiles = is_tiled != 0u ? next_tiles : 0, to.sides = next_sides;
+  to.bins = next_bins, to.small = small, to.nodes = nodes, to.refs = refs, to.counters = counters;
+  list_sides(&to, ranges[at], sides[at], moved, (volatile __global uint*)(counters + 2u * (level + 1u)));
+}
+
+// A group splits a range, however many items it has.
+__kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void split_ranges(
+    __global const Item* items, __global Item* moved, __global const TopRange* ranges,
+    __global TopRange* next_ranges, __global TopRange* small, __global Node* nodes,
+    __global const uint* refs, __global uint* counters, uint level, __local uint* pool) {
+  const uint lid = (uint)get_local_id(0), at = (uint)get_group_id(0);
+  const bool works = at < counters[2u * level + LEVEL_RANGES];
+  const TopRange r = ranges[works ? at : 0u];
+  const uint begin = works ? r.begin : 0u, end = works ? r.end : 0u;
+  for (uint i = lid; i < ALL_BIN_WORDS; i += GROUP) pool[i] = empty_bin_word(i);
+  barrier(CLK_LOCAL_MEM_FENCE);
+  // 32 neighbours in the group are far apart in the range, so that few meet at one bin.
+  const uint stride = (end - begin + 31u) / 32u, first = begin + lid % 32u * stride;
+  const uint last = min(first + stride, end);
+  for (uint i = first + lid / 32u; i < last; i += GROUP / 32u) fill_bins(pool, &items[i], &r);
+  barrier(CLK_LOCAL_MEM_FENCE);
+  find_costs(pool, &r);
+  barrier(CLK_LOCAL_MEM_FENCE);
+  choose_split(pool, &r);
+  barrier(CLK_LOCAL_MEM_FENCE);
+  __local uint* sides = pool + SPLIT_SIDES;
+  const bool is_by_index = pool[SPLIT_CHOICE] == SPLIT_BY_INDEX;
+  for (uint i = first + lid / 32u; i < last; i += GROUP / 32u) {
+    const uint side = side_of(pool, &items[i], &r), place = atomic_inc(&sides[SIDES_COUNT + side]);
+    if (is_by_index) grow_side(sides, &items[i], side);
+    moved[side == 0u ? begin + place : end - 1u - place] = items[i];
   }
-  nodes[r.node] = node;
+  barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
+  if (!works || lid != 0u) return;
+  Lists to;
+  to.ranges = next_ranges, to.tiles = 0, to.sides = 0, to.bins = 0;
+  to.small = small, to.nodes = nodes, to.refs = refs, to.counters = counters;
+  TopSides s;
+  for (uint i = 0u; i < 6u; ++i) {
+    s.lo[i / 3u][i % 3u] = sides[i];
+    s.hi[i / 3u][i % 3u] = sides[6u + i];
+  }
+  s.count[0] = sides[SIDES_COUNT], s.count[1] = sides[SIDES_COUNT + 1u];
+  s.spare[0] = s.spare[1] = 0u;
+  list_sides(&to, r, s, moved, (volatile __global uint*)(counters + 2u * (level + 1u)));
 }
 
 // Trees over the small ranges, a group to each.

@@ -9,30 +9,34 @@ subtrees::subtrees(const runtime::queue& q, const runtime::source_tree& kernels,
                    std::uint32_t most)
     : queue_(q),
       group_(t.list_group),
-      tile_(t.list_tile),
+      scan_group_(t.scan_group),
+      most_(most),
       program_(
-          compiled(q, kernels, "subtrees.cl", t.flags() + " -DMOST=" + std::to_string(most) + "u")),
-      count_(program_.get_kernel("count_subtrees")),
+          compiled(q, kernels, "subtrees.cl", t.flags() + " -DMOST=" + std::to_string(most))),
+      mark_(program_.get_kernel("mark_subtrees")),
       scan_(program_.get_kernel("scan_tiles")),
       list_(program_.get_kernel("list_subtrees")) {}
 
 std::uint32_t subtrees::list(runtime::buffer<std::uint32_t>& codes, std::uint32_t count,
                              std::vector<sort_step>& steps) {
-  const std::uint32_t tiles = (count + tile_ - 1) / tile_;
+  const std::uint32_t tile = 32 * group_, tiles = (count + tile - 1) / tile;
   hold(counts_, tiles);
-  steps.push_back({"count_subtrees", queue_.submit([&](runtime::handler& h) {
+  hold(marks_, std::size_t(tiles) * group_);
+  steps.push_back({"mark_subtrees", queue_.submit([&](runtime::handler& h) {
                      const runtime::accessor in{codes, h, runtime::read_only};
+                     const runtime::accessor marks{marks_, h, runtime::write_only};
                      const runtime::accessor out{counts_, h, runtime::write_only};
-                     h.set_args(in, out, count, tile_,
-                                runtime::local_accessor<std::uint32_t>(1, h));
-                     h.parallel_for(in_groups(tiles, group_), count_);
+                     const runtime::local_accessor<std::uint8_t> common(tile + 2 * most_, h);
+                     const runtime::local_accessor<std::uint32_t> bits(group_, h);
+                     h.set_args(in, marks, out, count, common, bits);
+                     h.parallel_for(in_groups(tiles, group_), mark_);
                    })});
   steps.push_back({"scan_tiles", queue_.submit([&](runtime::handler& h) {
                      const runtime::accessor counts{counts_, h, runtime::read_write};
                      const runtime::accessor total{total_, h, runtime::write_only};
-                     const runtime::local_accessor<std::uint32_t> sums(group_, h);
+                     const runtime::local_accessor<std::uint32_t> sums(scan_group_, h);
                      h.set_args(counts, total, tiles, sums);
-                     h.parallel_for(in_groups(1, group_), scan_);
+                     h.parallel_for(in_groups(1, scan_group_), scan_);
                    })});
   std::uint32_t found = 0;
   {
@@ -41,11 +45,12 @@ std::uint32_t subtrees::list(runtime::buffer<std::uint32_t>& codes, std::uint32_
   }
   hold(starts_, std::size_t(found) + 1);
   steps.push_back({"list_subtrees", queue_.submit([&](runtime::handler& h) {
-                     const runtime::accessor in{codes, h, runtime::read_only};
+                     const runtime::accessor marks{marks_, h, runtime::read_only};
                      const runtime::accessor counts{counts_, h, runtime::read_only};
+                     const runtime::accessor total{total_, h, runtime::read_only};
                      const runtime::accessor out{starts_, h, runtime::write_only};
                      const runtime::local_accessor<std::uint32_t> sums(group_, h);
-                     h.set_args(in, counts, out, count, tile_, sums);
+                     h.set_args(marks, counts, total, out, count, sums);
                      h.parallel_for(in_groups(tiles, group_), list_);
                    })});
   return found;

@@ -9,15 +9,24 @@
 namespace facet::tracer {
 namespace {
 
-// As in cl/top.cl, cl/bins.h and cl/sweep.h.
-constexpr std::uint32_t group = 256, tile_items = 1024, totals = 1024, level_words = 4;
-constexpr std::uint32_t bin_words = 3 * 16 * 8, split_words = bin_words + 48 + 32 + 4;
+// As in cl/top.cl, cl/bin_split.h and cl/sweep.h.
+constexpr std::uint32_t group = 256, tile_items = 1024, totals = 512, level_words = 2;
+constexpr std::uint32_t bin_words = 3 * 16 * 8, split_words = bin_words + 48 + 4 + 16;
 constexpr std::uint32_t swept = 32, sweep_words = 820;
+constexpr std::uint32_t large = 4096;  ///< items that one group does not split alone
 
-/// Ranges that are split at one level, and tiles of theirs, at most.
-std::uint32_t most_ranges(std::uint32_t count) { return count / (swept + 1) + 1; }
-std::uint32_t most_tiles(std::uint32_t count, std::uint32_t ranges) {
-  return count / tile_items + ranges;
+/// Levels at which ranges may be large, if splits are not too uneven; it costs time alone if some
+/// are large at others.
+std::uint32_t tiled_levels(std::uint32_t count) {
+  return count <= large ? 0 : std::uint32_t(std::bit_width((count - 1) / large)) + 1;
+}
+/// Ranges that are split at a level, at most.
+std::uint32_t most_ranges(std::uint32_t count, std::uint32_t level) {
+  const std::uint32_t all = count / (swept + 1) + 1;
+  return level < 31 ? std::min(1u << level, all) : all;
+}
+std::uint32_t most_tiles(std::uint32_t count, std::uint32_t level) {
+  return count / tile_items + most_ranges(count, level);
 }
 
 template <class T>
@@ -36,34 +45,45 @@ top_tree::top_tree(const runtime::queue& q, const runtime::source_tree& kernels,
     : queue_(q),
       is_serial_(t.serial_trees),
       program_(compiled(q, kernels, t.serial_trees ? "serial_tree.cl" : "top.cl", t.flags())),
-      serial_(program_.get_kernel(t.serial_trees ? "build_top" : "start_top")),
-      start_(serial_),
-      bin_(program_.get_kernel(t.serial_trees ? "build_top" : "bin_items")),
-      split_(program_.get_kernel(t.serial_trees ? "build_top" : "split_ranges")),
-      list_(program_.get_kernel(t.serial_trees ? "build_top" : "list_ranges")),
-      finish_(program_.get_kernel(t.serial_trees ? "build_top" : "finish_ranges")),
       ranges_(two<TopRange>()),
       sides_(two<TopSides>()),
       tiles_(two<std::uint32_t>()),
-      bins_(two<std::uint32_t>()) {}
+      bins_(two<std::uint32_t>()) {
+  if (is_serial_) {
+    serial_ = program_.get_kernel("build_top");
+    return;
+  }
+  start_ = program_.get_kernel("start_top");
+  bin_ = program_.get_kernel("bin_tiles");
+  move_ = program_.get_kernel("move_tiles");
+  list_ = program_.get_kernel("list_ranges");
+  split_ = program_.get_kernel("split_ranges");
+  finish_ = program_.get_kernel("finish_ranges");
+}
 
-std::uint64_t top_tree::scratch_bytes(std::uint64_t count) {
-  const auto n = std::uint32_t(count);
-  const std::uint64_t ranges = most_ranges(n);
-  return count * sizeof(Item) + (n / 2 + 1) * sizeof(TopRange) +
-         2 * (ranges * (sizeof(TopRange) + sizeof(TopSides)) + most_tiles(n, most_ranges(n)) * 8 +
-              (n / tile_items + 1) * bin_words * 4);
+std::uint64_t top_tree::scratch_bytes(std::uint64_t items) {
+  const auto count = std::uint32_t(items);
+  const std::uint32_t tiled = tiled_levels(count);
+  const std::uint64_t ranges = most_ranges(count, 31), tiled_ranges = most_ranges(count, tiled);
+  return items * sizeof(Item) + (count / 2 + 1) * sizeof(TopRange) + 2 * ranges * sizeof(TopRange) +
+         2 * tiled_ranges * (sizeof(TopSides) + 4 * bin_words) + 16 * most_tiles(count, tiled);
 }
 
 std::uint32_t top_tree::build(runtime::buffer<Curve>& curve, tree_parts& parts, std::uint32_t count,
                               std::vector<sort_step>& steps) {
   if (is_serial_) return build_serial(curve, parts, count, steps);
   hold_room(count);
-  start(curve, count, steps);
+  const std::uint32_t tiled = tiled_levels(count);
+  start(curve, count, tiled > 0, steps);
   // So many levels there are if all splits are even, and some more; then one asks.
-  std::uint32_t level = 0, levels = count <= swept ? 0 : std::bit_width(count / swept) + 2;
+  std::uint32_t level = 0;
+  std::uint32_t levels = count <= swept ? 0 : std::uint32_t(std::bit_width(count / swept)) + 3;
   for (;;) {
-    for (; level < levels; ++level) split_level(parts, count, level, steps);
+    for (; level < levels; ++level)
+      if (level < tiled)
+        split_tiles(parts, count, level, level + 1 < tiled, steps);
+      else
+        split_level(parts, count, level, steps);
     if (level == 0 || told(level_words * level) == 0) break;
     levels += 4;
   }
@@ -86,88 +106,102 @@ std::uint32_t top_tree::build_serial(runtime::buffer<Curve>& curve, tree_parts& 
                      const runtime::accessor refs{parts.refs, h, runtime::read_only};
                      const runtime::accessor counter{counters_, h, runtime::write_only};
                      h.set_args(items, along, nodes, refs, counter, count);
-                     h.parallel_for(in_groups(1, 1), serial_);
+                     h.parallel_for(in_groups(1, 1), *serial_);
                    })});
   return told(1);
 }
 
 void top_tree::hold_room(std::uint32_t count) {
-  const std::uint32_t ranges = most_ranges(count);
+  const std::uint32_t tiled = tiled_levels(count), tiled_ranges = most_ranges(count, tiled);
   hold(counters_, totals + 2);
-  hold_both(ranges_, ranges);
-  hold_both(sides_, ranges);
-  hold_both(tiles_, 2 * std::size_t(most_tiles(count, ranges)));
-  hold_both(bins_, std::size_t(count / tile_items + 1) * bin_words);
+  hold_both(ranges_, most_ranges(count, 31));
+  hold_both(sides_, tiled_ranges);
+  hold_both(tiles_, 2 * std::size_t(most_tiles(count, tiled)));
+  hold_both(bins_, std::size_t(tiled_ranges) * bin_words);
   hold(small_, count / 2 + 1);
   hold(moved_, count);
 }
 
-void top_tree::start(runtime::buffer<Curve>& curve, std::uint32_t count,
+void top_tree::start(runtime::buffer<Curve>& curve, std::uint32_t count, std::uint32_t is_tiled,
                      std::vector<sort_step>& steps) {
-  queue_.submit([&](runtime::handler& h) {
-    h.fill(runtime::accessor{counters_, h, runtime::write_only}, 0u);
-  });
   steps.push_back({"start_top", queue_.submit([&](runtime::handler& h) {
                      const runtime::accessor along{curve, h, runtime::read_only};
                      const runtime::accessor ranges{ranges_[0], h, runtime::write_only};
-                     const runtime::accessor before{sides_[1], h, runtime::write_only};
-                     const runtime::accessor sides{sides_[0], h, runtime::write_only};
                      const runtime::accessor tiles{tiles_[0], h, runtime::write_only};
+                     const runtime::accessor sides{sides_[0], h, runtime::write_only};
                      const runtime::accessor bins{bins_[0], h, runtime::write_only};
                      const runtime::accessor small{small_, h, runtime::write_only};
                      const runtime::accessor counters{counters_, h, runtime::read_write};
-                     h.set_args(along, ranges, before, sides, tiles, bins, small, counters, count);
-                     h.parallel_for(in_groups(1, group), start_);
+                     h.set_args(along, ranges, tiles, sides, bins, small, counters, count,
+                                is_tiled);
+                     h.parallel_for(in_groups(1, group), *start_);
                    })});
 }
 
-void top_tree::split_level(tree_parts& parts, std::uint32_t count, std::uint32_t level,
-                           std::vector<sort_step>& steps) {
-  const std::uint32_t most =
-      level < 31 ? std::min(1u << level, most_ranges(count)) : most_ranges(count);
+void top_tree::split_tiles(tree_parts& parts, std::uint32_t count, std::uint32_t level,
+                           std::uint32_t is_tiled, std::vector<sort_step>& steps) {
   const std::uint32_t now = level % 2, next = 1 - now;
   auto& from = now == 0 ? parts.items : moved_;
   auto& to = now == 0 ? moved_ : parts.items;
-  steps.push_back({"bin_items", queue_.submit([&](runtime::handler& h) {
+  const auto groups = in_groups(most_tiles(count, level), group);
+  steps.push_back({"bin_tiles", queue_.submit([&](runtime::handler& h) {
                      const runtime::accessor items{from, h, runtime::read_only};
                      const runtime::accessor ranges{ranges_[now], h, runtime::read_only};
-                     const runtime::accessor before{sides_[next], h, runtime::read_only};
                      const runtime::accessor tiles{tiles_[now], h, runtime::read_only};
                      const runtime::accessor bins{bins_[now], h, runtime::read_write};
                      const runtime::accessor counters{counters_, h, runtime::read_only};
                      const runtime::local_accessor<std::uint32_t> own(bin_words, h);
-                     h.set_args(items, ranges, before, tiles, bins, counters, level, own);
-                     h.parallel_for(in_groups(most_tiles(count, most), group), bin_);
+                     h.set_args(items, ranges, tiles, bins, counters, level, own);
+                     h.parallel_for(groups, *bin_);
                    })});
-  steps.push_back({"split_ranges", queue_.submit([&](runtime::handler& h) {
+  steps.push_back({"move_tiles", queue_.submit([&](runtime::handler& h) {
                      const runtime::accessor items{from, h, runtime::read_only};
                      const runtime::accessor moved{to, h, runtime::write_only};
                      const runtime::accessor ranges{ranges_[now], h, runtime::read_only};
-                     const runtime::accessor before{sides_[next], h, runtime::read_only};
-                     const runtime::accessor sides{sides_[now], h, runtime::read_write};
                      const runtime::accessor tiles{tiles_[now], h, runtime::read_only};
                      const runtime::accessor bins{bins_[now], h, runtime::read_only};
+                     const runtime::accessor sides{sides_[now], h, runtime::read_write};
                      const runtime::accessor counters{counters_, h, runtime::read_only};
                      const runtime::local_accessor<std::uint32_t> pool(split_words, h);
-                     h.set_args(items, moved, ranges, before, sides, tiles, bins, counters, level,
-                                pool);
-                     h.parallel_for(in_groups(most_tiles(count, most), group), split_);
+                     h.set_args(items, moved, ranges, tiles, bins, sides, counters, level, pool);
+                     h.parallel_for(groups, *move_);
                    })});
   steps.push_back({"list_ranges", queue_.submit([&](runtime::handler& h) {
                      const runtime::accessor moved{to, h, runtime::read_only};
                      const runtime::accessor ranges{ranges_[now], h, runtime::read_only};
                      const runtime::accessor sides{sides_[now], h, runtime::read_only};
                      const runtime::accessor next_ranges{ranges_[next], h, runtime::write_only};
-                     const runtime::accessor next_sides{sides_[next], h, runtime::write_only};
                      const runtime::accessor next_tiles{tiles_[next], h, runtime::write_only};
+                     const runtime::accessor next_sides{sides_[next], h, runtime::write_only};
                      const runtime::accessor next_bins{bins_[next], h, runtime::write_only};
                      const runtime::accessor small{small_, h, runtime::write_only};
                      const runtime::accessor nodes{parts.nodes, h, runtime::read_write};
                      const runtime::accessor refs{parts.refs, h, runtime::read_only};
                      const runtime::accessor counters{counters_, h, runtime::read_write};
-                     h.set_args(moved, ranges, sides, next_ranges, next_sides, next_tiles,
-                                next_bins, small, nodes, refs, counters, level);
-                     h.parallel_for(padded(most, 64), list_);
+                     h.set_args(moved, ranges, sides, next_ranges, next_tiles, next_sides,
+                                next_bins, small, nodes, refs, counters, level, is_tiled);
+                     h.parallel_for(padded(most_ranges(count, level), 64), *list_);
+                   })});
+}
+
+void top_tree::split_level(tree_parts& parts, std::uint32_t count, std::uint32_t level,
+                           std::vector<sort_step>& steps) {
+  const std::uint32_t now = level % 2, next = 1 - now;
+  auto& from = now == 0 ? parts.items : moved_;
+  auto& to = now == 0 ? moved_ : parts.items;
+  steps.push_back({"split_ranges", queue_.submit([&](runtime::handler& h) {
+                     const runtime::accessor items{from, h, runtime::read_only};
+                     const runtime::accessor moved{to, h, runtime::read_write};
+                     const runtime::accessor ranges{ranges_[now], h, runtime::read_only};
+                     const runtime::accessor next_ranges{ranges_[next], h, runtime::write_only};
+                     const runtime::accessor small{small_, h, runtime::write_only};
+                     const runtime::accessor nodes{parts.nodes, h, runtime::read_write};
+                     const runtime::accessor refs{parts.refs, h, runtime::read_only};
+                     const runtime::accessor counters{counters_, h, runtime::read_write};
+                     const runtime::local_accessor<std::uint32_t> pool(split_words, h);
+                     h.set_args(items, moved, ranges, next_ranges, small, nodes, refs, counters,
+                                level, pool);
+                     h.parallel_for(in_groups(most_ranges(count, level), group), *split_);
                    })});
 }
 
@@ -182,7 +216,7 @@ void top_tree::finish(tree_parts& parts, std::uint32_t ranges, std::vector<sort_
                      const runtime::accessor counters{counters_, h, runtime::read_write};
                      const runtime::local_accessor<std::uint32_t> pool(sweep_words, h);
                      h.set_args(even, odd, small, nodes, refs, counters, pool);
-                     h.parallel_for(in_groups(ranges, swept), finish_);
+                     h.parallel_for(in_groups(ranges, swept), *finish_);
                    })});
 }
 

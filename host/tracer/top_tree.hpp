@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "runtime/runtime.hpp"
 #include "tracer/bottoms.hpp"
@@ -26,7 +27,10 @@ class top_tree {
                              std::vector<sort_step>& steps);
   std::uint32_t told(std::uint32_t counter);
   void hold_room(std::uint32_t count);
-  void start(runtime::buffer<Curve>& curve, std::uint32_t count, std::vector<sort_step>& steps);
+  void start(runtime::buffer<Curve>& curve, std::uint32_t count, std::uint32_t is_tiled,
+             std::vector<sort_step>& steps);
+  void split_tiles(tree_parts& parts, std::uint32_t count, std::uint32_t level,
+                   std::uint32_t is_tiled, std::vector<sort_step>& steps);
   void split_level(tree_parts& parts, std::uint32_t count, std::uint32_t level,
                    std::vector<sort_step>& steps);
   void finish(tree_parts& parts, std::uint32_t ranges, std::vector<sort_step>& steps);
@@ -34,7 +38,7 @@ class top_tree {
   runtime::queue queue_;
   bool is_serial_;
   runtime::program program_;
-  runtime::kernel serial_, start_, bin_, split_, list_, finish_;
+  std::optional<runtime::kernel> serial_, start_, bin_, move_, list_, split_, finish_;
   runtime::buffer<std::uint32_t> counters_{1};
   // Of a level and of the next, in turns.
   std::array<runtime::buffer<TopRange>, 2> ranges_;
