@@ -132,22 +132,24 @@ typedef struct {
   uint leaf_begin, leaf_count;  // of its leaf; `link` says which child that is
   uint link;                    // 2 * node + side, or NO_LINK: the root is a leaf
   uint depth;                   // nodes above the leaf
+  uint root;                    // the tree's first node, unless it is a leaf
   uint moved_from;              // where its box stood before
-  uint nodes;                   // of the whole tree
+  uint nodes;                   // of all trees of the group
 } Swept;
 
-// All work-items call this together; boxes, ties and weights are those of places 0 .. count - 1. The
-// nodes' children are numbered from `base` on where they are nodes; leaves are left for the caller.
-static inline Swept sweep_tree(uint lane, uint count, uint base, __local uint* pool) {
+// All work-items call this together: for places begin .. end - 1, of which there are none if they are equal;
+// a group may hold several trees. Nodes' children are numbered from `base` on where they are nodes;
+// leaves are left for the caller.
+static inline Swept sweep_tree(uint lane, uint begin, uint end, uint base, __local uint* pool) {
   __local float* box = (__local float*)pool;
   const uint below = (1u << lane) - 1u;
   Swept t;
   t.nodes = 0u;
   t.link = NO_LINK;
+  t.root = 0u;
   t.depth = 0u;
   t.moved_from = lane;
-  uint begin = 0u, end = count;
-  bool is_open = lane < count;
+  bool is_open = begin < end;
   for (uint level = 0u; level < SWEEP_MOST; ++level) {
     barrier(CLK_LOCAL_MEM_FENCE);
     if (lane < 2u) pool[SWEEP_MASK + lane] = 0u;
@@ -189,7 +191,8 @@ static inline Swept sweep_tree(uint lane, uint count, uint base, __local uint* p
         put_child_bounds(pool + SWEEP_NODES + 16u * node, 0u, own.sides.left);
         put_child_bounds(pool + SWEEP_NODES + 16u * node, 1u, own.sides.right);
       }
-      if (lane == begin && t.link != NO_LINK)
+      if (t.link == NO_LINK) t.root = node;
+      else if (lane == begin)
         pool[SWEEP_NODES + 16u * (t.link >> 1) + NODE_CHILD + (t.link & 1u)] = base + node;
       const uint left_count = key & 255u, before = below & ~((1u << begin) - 1u);
       to = goes_left ? begin + popcount(lefts & before) : begin + left_count + popcount(~lefts & before);

@@ -252,7 +252,7 @@ __kernel __attribute__((reqd_work_group_size(32, 1, 1))) void finish_ranges(
   pool[SWEEP_TIE + lane] = item->index;
   pool[SWEEP_WEIGHT + lane] = FACET_SIZE_OF(item->size);
   const uint height = FACET_HEIGHT_OF(item->size);
-  const Swept t = sweep_tree(lane, count, r.node, pool);
+  const Swept t = sweep_tree(lane, lane < count ? 0u : lane, lane < count ? count : lane, r.node, pool);
   barrier(CLK_LOCAL_MEM_FENCE);
   pool[SWEEP_WEIGHT + lane] = height;
   if (lane == 0u) pool[SWEEP_MASK] = 0u;

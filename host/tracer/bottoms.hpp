@@ -28,8 +28,9 @@ struct tree_parts {
 template <class Primitive>
 class bottoms {
  public:
+  /// most: primitives of a subtree, at most; 16 or 32.
   bottoms(const runtime::queue& q, const runtime::source_tree& kernels, const tuning& t,
-          leaf_rule leaves);
+          leaf_rule leaves, std::uint32_t most);
 
   /// order: sorted place -> primitive; becomes leaf place -> primitive. Nodes are appended from
   /// first_node on. Returns the nodes that there are then; where they are more than
@@ -43,6 +44,7 @@ class bottoms {
 
  private:
   runtime::queue queue_;
+  std::uint32_t most_;
   bool is_serial_;
   std::uint32_t pieces_;
   runtime::buffer<std::uint32_t> counter_{1};

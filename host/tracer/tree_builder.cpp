@@ -8,7 +8,7 @@
 namespace facet::tracer {
 namespace {
 
-constexpr std::uint32_t subtree_most = 32;  // cl/sweep.h: SWEEP_MOST
+constexpr std::uint32_t subtree_most = 16;
 
 /// Nodes that trees are expected to have at most: 0.62 a primitive was never reached where leaves
 /// hold two or more (bunny 0.55, terrain 0.53, soup 0.60). A tree that has more is built again.
@@ -27,7 +27,7 @@ struct tree_builder<Primitive>::parts {
       : morton_codes(q, kernels, t),
         sort(q, kernels, t),
         cut(q, kernels, t, subtree_most),
-        bottom(q, kernels, t, leaves),
+        bottom(q, kernels, t, leaves, subtree_most),
         top(q, kernels, t) {}
 
   morton<Primitive> morton_codes;
