@@ -14,6 +14,7 @@ struct tuning {
   std::uint32_t render_group_width = 8,
                 render_group_height = 8;  ///< the render kernel's work-group
   std::uint32_t leaf_size = 4;            ///< triangles a leaf holds at most, 1 to 16
+  std::uint32_t block_run = 256;          ///< blocks of the wide layout that a work-item makes
   sort_tuning sort;
   bool image_geometry = false;     ///< what --geometry auto means
   bool wide_layout = false;        ///< what layout_kind::automatic means, but for images
