@@ -6,7 +6,8 @@
 // which are written from the root down. Each knows its place from the plan's counts, so nodes and leaves
 // stand in depth-first order, whoever writes them.
 //
-// No walk has a stack, whose size would be a guess: lists are threaded through FoldPlan.next.
+// No walk has a stack, whose size would be a guess: lists are threaded through FoldPlan.next. What subtrees
+// cost is wanted by the node above alone, soon after it is known: it stays in few records, which caches hold.
 #include "fold.h"
 
 // Nodes that are opened at most; as host/tracer/fold.cpp has them.
@@ -31,11 +32,23 @@ __kernel void open_tree(__global const Node* nodes, uint root, __global uint* fr
   front[1] = all;
 }
 
+// Records of costs: first RECORDS for each subtree, by height of the stack that they make; then one for each
+// node, for those that are higher and for what plan_top reads.
+#define RECORDS 64u
+#define NODE_RECORDS (RECORDS * (OPENED_BINARY + 1u))
+
+// The record of `node`, if its costs are at that height of the i-th subtree's stack.
+static inline __global FoldCost* record_of(__global FoldCost* costs, uint i, uint height, uint node) {
+  return &costs[height < RECORDS ? i * RECORDS + height : NODE_RECORDS + node];
+}
+
 __kernel void plan_subtrees(__global const Node* nodes, __global const uint* front,
                             __global FoldCost* costs, __global FoldPlan* plans) {
-  if (get_global_id(0) >= subtrees_of(front)) return;
-  // Those that wait to be met, last in, first out; then those met, children before their parents.
-  uint waiting = subtree_root(front, (uint)get_global_id(0)), met = FACET_NONE;
+  const uint i = (uint)get_global_id(0);
+  if (i >= subtrees_of(front)) return;
+  // Those that wait to be met, last in, first out; then those met, last met first.
+  const uint root = subtree_root(front, i);
+  uint waiting = root, met = FACET_NONE;
   plans[waiting].next = FACET_NONE;
   while (waiting != FACET_NONE) {
     const uint node = waiting;
@@ -50,16 +63,35 @@ __kernel void plan_subtrees(__global const Node* nodes, __global const uint* fro
       waiting = child;
     }
   }
-  for (; met != FACET_NONE; met = plans[met].next) plan_node(nodes, costs, plans, met);
+  // A node comes right after its right side, which comes right after its left one: both are on top of
+  // the stack then, as where an expression is computed in reverse Polish notation.
+  uint height = 0u;
+  for (; met != FACET_NONE; met = plans[met].next) {
+    const uint l = nodes[met].child[0], r = nodes[met].child[1];
+    Ways left = ways_of_leaf(), right = left;
+    if (!(r & FACET_LEAF_BIT)) right = ways_at(record_of(costs, i, --height, r));
+    if (!(l & FACET_LEAF_BIT)) left = ways_at(record_of(costs, i, --height, l));
+    plan_node(nodes, met, left, right, plans,
+              met == root ? &costs[NODE_RECORDS + root] : record_of(costs, i, height, met));
+    ++height;
+  }
+}
+
+static inline Ways ways_of(__global const FoldCost* costs, uint child) {
+  return child & FACET_LEAF_BIT ? ways_of_leaf() : ways_at(&costs[NODE_RECORDS + child]);
 }
 
 // And how many wide nodes and leaves there are, and nodes on the longest way down.
 __kernel void plan_top(__global const Node* nodes, uint root, __global const uint* front,
                        __global FoldCost* costs, __global FoldPlan* plans, __global uint* sizes) {
-  for (uint i = front[0]; i > 0u; --i) plan_node(nodes, costs, plans, front[2u + i - 1u]);
+  for (uint i = front[0]; i > 0u; --i) {
+    const uint node = front[2u + i - 1u];
+    plan_node(nodes, node, ways_of(costs, nodes[node].child[0]), ways_of(costs, nodes[node].child[1]), plans,
+              &costs[NODE_RECORDS + node]);
+  }
   sizes[0] = plans[root].nodes;
   sizes[1] = plans[root].leaves;
-  sizes[2] = costs[root].depth[0];
+  sizes[2] = costs[NODE_RECORDS + root].depth[0];
 }
 
 // Wide nodes and leaves count as children from first_node and first_leaf on; `wide` is of all trees, `leaves`
@@ -70,7 +102,7 @@ __kernel void emit_top(__global const Node* nodes, uint root, __global FoldPlan*
   __global uint* node = front + 2;
   uint inner[WIDTH], opened = 0u, all = 0u;
   node[all++] = root;
-  plans[root].at = plans[root].leaf = 0u;
+  plans[root].nodes = plans[root].leaves = 0u;
   for (; opened < all && opened < OPENED_WIDE; ++opened) {
     const uint count = emit_node(nodes, plans, node[opened], wide, leaves, first_node, first_leaf, inner);
     for (uint k = 0u; k < count; ++k) node[all++] = inner[k];

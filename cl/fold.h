@@ -22,14 +22,18 @@ typedef struct {
 } Ways;
 
 // A leaf costs no wide node, however many places it has.
-static inline Ways ways_of(__global const FoldCost* costs, uint child) {
+static inline Ways ways_of_leaf(void) {
   Ways w;
   w.area = (float8)(0.0f);
   w.nodes = w.depth = (uint8)(0u);
-  if (child & FACET_LEAF_BIT) return w;
-  w.area = vload8(0, costs[child].area);
-  w.nodes = vload8(0, costs[child].nodes);
-  w.depth = vload8(0, costs[child].depth);
+  return w;
+}
+
+static inline Ways ways_at(__global const FoldCost* cost) {
+  Ways w;
+  w.area = vload8(0, cost->area);
+  w.nodes = vload8(0, cost->nodes);
+  w.depth = vload8(0, cost->depth);
   return w;
 }
 
@@ -53,13 +57,10 @@ static inline float half_area(__global const Node* n) {
     taken |= takes;                                                                         \
   }
 
-// Needs the costs of both children. No area is above FLT_MAX here, as what overflows is not chosen: then
-// each side has half of the places.
-static inline void plan_node(__global const Node* nodes, __global FoldCost* costs, __global FoldPlan* plans,
-                             uint node) {
-  const uint l = nodes[node].child[0], r = nodes[node].child[1];
-  const Ways left = ways_of(costs, l);
-  Ways right = ways_of(costs, r);
+// From what the children cost to what the node does, at `cost`. No area is above FLT_MAX here, as what
+// overflows is not chosen: then each side has half of the places.
+static inline void plan_node(__global const Node* nodes, uint node, Ways left, Ways right,
+                             __global FoldPlan* plans, __global FoldCost* cost) {
   float left_area[WIDTH];
   uint left_nodes[WIDTH], left_depth[WIDTH];
   vstore8(left.area, 0, left_area);
@@ -98,11 +99,12 @@ static inline void plan_node(__global const Node* nodes, __global FoldCost* cost
   const uint4 halves = share.lo | share.hi;
   const uint2 quarters = halves.lo | halves.hi;
 
-  vstore8(best.area, 0, costs[node].area);
-  vstore8(best.nodes, 0, costs[node].nodes);
-  vstore8(best.depth, 0, costs[node].depth);
+  vstore8(best.area, 0, cost->area);
+  vstore8(best.nodes, 0, cost->nodes);
+  vstore8(best.depth, 0, cost->depth);
   plans[node].left = quarters.x | quarters.y;
   plans[node].nodes = best.nodes.s0;
+  const uint l = nodes[node].child[0], r = nodes[node].child[1];
   plans[node].leaves = (l & FACET_LEAF_BIT ? 1u : plans[l].leaves) + (r & FACET_LEAF_BIT ? 1u : plans[r].leaves);
 }
 
@@ -112,8 +114,8 @@ static inline void plan_node(__global const Node* nodes, __global FoldCost* cost
 static inline uint emit_node(__global const Node* nodes, __global FoldPlan* plans, uint node,
                              __global WideNode* wide, __global uint* leaves, uint first_node,
                              uint first_leaf, uint* inner) {
-  __global WideNode* to = &wide[first_node + plans[node].at];
-  uint at = plans[node].at + 1u, leaf = plans[node].leaf, lane = 0u, inner_count = 0u;
+  __global WideNode* to = &wide[first_node + plans[node].nodes];
+  uint at = plans[node].nodes + 1u, leaf = plans[node].leaves, lane = 0u, inner_count = 0u;
   // Subtrees that wait, as the node above and its side, and their places. Each becomes at least one child.
   uint above[WIDTH], side[WIDTH], places[WIDTH], top = 0u;
   const uint own = places_of(plans[node].left, 1u);
@@ -139,10 +141,11 @@ static inline uint emit_node(__global const Node* nodes, __global FoldPlan* plan
       }
       inner[inner_count++] = child;
       as_child = first_node + at;
-      plans[child].at = at;
-      plans[child].leaf = leaf;
-      at += plans[child].nodes;
-      leaf += plans[child].leaves;
+      const uint nodes_below = plans[child].nodes, leaves_below = plans[child].leaves;
+      plans[child].nodes = at;
+      plans[child].leaves = leaf;
+      at += nodes_below;
+      leaf += leaves_below;
     }
     to->x[0][lane] = n->x[0][s], to->x[1][lane] = n->x[1][s];
     to->y[0][lane] = n->y[0][s], to->y[1][lane] = n->y[1][s];

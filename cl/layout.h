@@ -75,15 +75,12 @@ struct FACET_ALIGNED FoldCost {
   uint depth[8];  // how many on the longest way down
 };
 
-// What was chosen for a node of the binary tree, and where the fold puts it.
+// What was chosen for a node of the binary tree. Its counts give way to its place once this is known.
 struct FACET_ALIGNED FoldPlan {
   uint left;    // places that its left side takes, four bits for each k (cl/fold.h)
-  uint leaves;  // of its subtree
-  uint nodes;   // wide nodes of its subtree, where it is one itself
+  uint leaves;  // of its subtree; then those before its own
+  uint nodes;   // wide nodes of its subtree, where it is one itself; then those before it
   uint next;    // of a list threaded through the nodes
-  uint at;      // its place among the tree's wide nodes
-  uint leaf;    // the leaves before its own
-  uint spare[2];
 };
 
 // Where a triangle in leaf order comes from.
@@ -259,7 +256,7 @@ FACET_SIZE(Node, 64)
 FACET_SIZE(WideNode, 256)
 FACET_SIZE(TriangleBlock, 288)
 FACET_SIZE(FoldCost, 96)
-FACET_SIZE(FoldPlan, 32)
+FACET_SIZE(FoldPlan, 16)
 FACET_SIZE(TriangleInfo, 16)
 FACET_SIZE(Instance, 160)
 FACET_SIZE(Material, 128)

@@ -13,7 +13,14 @@ constexpr std::uint32_t opened_wide = 73, wide_subtrees = 7 * opened_wide + 1;
 constexpr std::uint32_t front_size = 2 + opened_wide + wide_subtrees;
 static_assert(front_size >= 2 + opened_binary + binary_subtrees);
 
+// cl/fold.cl: RECORDS and NODE_RECORDS.
+constexpr std::uint32_t stack_records = 64 * binary_subtrees;
+
 }  // namespace
+
+std::uint64_t folder::scratch_bytes(std::uint64_t nodes) {
+  return (stack_records + nodes) * sizeof(FoldCost) + nodes * sizeof(FoldPlan);
+}
 
 folder::folder(runtime::queue q, const runtime::source_tree& kernels, const tuning& t)
     : queue_(q),
@@ -27,7 +34,7 @@ folder::folder(runtime::queue q, const runtime::source_tree& kernels, const tuni
 fold_plan folder::plan(const node_tree& tree) {
   fold_plan p{0, 1, 0, runtime::buffer<FoldPlan>(tree.node_count)};
   if (tree.root & FACET_LEAF_BIT) return p;
-  runtime::buffer<FoldCost> costs(tree.node_count);
+  runtime::buffer<FoldCost> costs(stack_records + std::size_t(tree.node_count));
   runtime::buffer<std::uint32_t> front(front_size), sizes(3);
   queue_.submit([&](runtime::handler& h) {
     const runtime::accessor nodes{tree.nodes, h, runtime::read_only};

@@ -27,15 +27,13 @@ class folder {
 
   /// Writes the plan's nodes into `wide` from first_node on, in depth-first order, and what leaf k
   /// of them is (FACET_LEAF: a run of places of tree.order) into leaves[k]. Gives the root as a
-  /// child, leaf k being FACET_LEAF(first_leaf + k, 1). Nothing is waited for.
+  /// child, leaf k being FACET_LEAF(first_leaf + k, 1). Uses the plan up. Nothing is waited for.
   std::uint32_t emit(const node_tree& tree, fold_plan& plan, runtime::buffer<WideNode>& wide,
                      std::uint32_t first_node, runtime::buffer<std::uint32_t>& leaves,
                      std::uint32_t first_leaf);
 
   /// Device memory that `plan` takes beside a tree of that many nodes, and that it keeps of this.
-  static std::uint64_t scratch_bytes(std::uint64_t nodes) {
-    return nodes * (sizeof(FoldCost) + sizeof(FoldPlan));
-  }
+  static std::uint64_t scratch_bytes(std::uint64_t nodes);
   static std::uint64_t kept_bytes(std::uint64_t nodes) { return nodes * sizeof(FoldPlan); }
 
   double compile_ms() const { return program_.build_ms(); }

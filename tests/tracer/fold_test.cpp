@@ -125,7 +125,10 @@ TEST_CASE("fold: the device gives what recursion gives, node for node, of any sh
       CAPTURE(n);
       check_fold(made_tree(n, 1, s, random_boxes(r), n));
     }
-  // Deeper than any stack for a balanced tree.
+  // Deeper than any stack for a balanced tree; where both sides are nodes, costs wait on every
+  // level.
+  const test::split two = [](std::uint32_t n) { return std::min(2u, n - 1); };
+  check_fold(made_tree(3000, 8, two, random_boxes(r), 7));
   check_fold(made_tree(3000, 8, one, random_boxes(r), 7));
   check_fold(made_tree(3000, 8, all_but_one, random_boxes(r), 7));
 }

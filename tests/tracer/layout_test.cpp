@@ -21,7 +21,7 @@ using namespace facet::tracer;
   SIZE(WideNode) FIELD(WideNode, y) FIELD(WideNode, z) FIELD(WideNode, child) \
   SIZE(TriangleBlock) \
   SIZE(FoldCost) FIELD(FoldCost, nodes) FIELD(FoldCost, depth) \
-  SIZE(FoldPlan) FIELD(FoldPlan, next) FIELD(FoldPlan, leaf) \
+  SIZE(FoldPlan) FIELD(FoldPlan, next) \
   SIZE(TriangleInfo) FIELD(TriangleInfo, material) \
   SIZE(Instance) FIELD(Instance, world_from_object) FIELD(Instance, lo) FIELD(Instance, id) \
     FIELD(Instance, hi) FIELD(Instance, root) FIELD(Instance, reach) FIELD(Instance, material) \
