@@ -25,7 +25,7 @@ using json = nlohmann::ordered_json;
 
 struct settings {
   std::vector<std::string> meshes{"terrain:1000", "soup:1000000"};
-  std::vector<std::string> trees{"levels"};
+  std::vector<std::string> trees{"levels", "binned"};
   std::string device = "0", layout = "auto", json;
   unsigned repeat = 10, threads = std::thread::hardware_concurrency();
   bool no_peers = false, quality = false, kept = false, steps = false;

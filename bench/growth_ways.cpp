@@ -14,7 +14,7 @@ class device_contender : public contender {
   device_contender(const runtime::queue& queue, const scene& s, way by,
                    const growth_settings& settings) {
     tracer::options o;
-    o.tree = by == way::tree ? tracer::tree_kind::levels : tracer::tree_kind::none;
+    o.tree = by == way::tree ? tracer::tree_kind::binned : tracer::tree_kind::none;
     o.geometry = settings.geometry == "image"    ? tracer::geometry_kind::image
                  : settings.geometry == "buffer" ? tracer::geometry_kind::buffer
                                                  : tracer::geometry_kind::automatic;

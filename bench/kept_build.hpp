@@ -33,7 +33,7 @@ class kept_build {
   runtime::buffer<tracer::texel> corners_, corners_out_;
   runtime::buffer<std::uint32_t> materials_;
   runtime::buffer<tracer::TriangleInfo> infos_;
-  tracer::device_tree tree_;
+  tracer::node_tree tree_;
   runtime::event gathered_;
 };
 

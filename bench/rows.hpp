@@ -26,4 +26,7 @@ void add_growth_row(CLI::App& app);
 /// The device's radix sort against std::sort and TBB.
 void add_sort_row(CLI::App& app);
 
+/// From a binary tree to the wide layout on a device.
+void add_fold_row(CLI::App& app);
+
 }  // namespace facet::bench

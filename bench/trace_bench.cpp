@@ -21,7 +21,7 @@ using json = nlohmann::ordered_json;
 
 struct settings {
   std::vector<std::string> meshes{"terrain:1000", "soup:1000000"};
-  std::string device = "0", geometry = "auto", tree = "levels", layout = "auto", kernels, json;
+  std::string device = "0", geometry = "auto", tree = "binned", layout = "auto", kernels, json;
   int repeat = 5;
   unsigned threads = std::thread::hardware_concurrency();
 };

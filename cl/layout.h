@@ -108,9 +108,25 @@ struct FACET_ALIGNED WideNode {
 
 // The triangles of a leaf, a lane each: corner[k][axis][lane]. The triangle in lane i of block b is in
 // slot FACET_BLOCK * b + i. A lane without a triangle holds one that no ray meets, a segment
-// (host/tracer/wide_layout.hpp).
+// (cl/blocks.cl).
 struct FACET_ALIGNED TriangleBlock {
   float corner[3][3][8];
+};
+
+// What a subtree of the binary tree costs where it has k places among the children of a wide node, at
+// [k - 1]: its wide nodes, as they were then chosen (cl/fold.h).
+struct FACET_ALIGNED FoldCost {
+  float area[8];  // sum of half their areas
+  uint nodes[8];  // how many
+  uint depth[8];  // how many on the longest way down
+};
+
+// What was chosen for a node of the binary tree. Its counts give way to its place once this is known.
+struct FACET_ALIGNED FoldPlan {
+  uint left;    // places that its left side takes, four bits for each k (cl/fold.h)
+  uint leaves;  // of its subtree; then those before its own
+  uint nodes;   // wide nodes of its subtree, where it is one itself; then those before it
+  uint next;    // of a list threaded through the nodes
 };
 
 // Where a triangle in leaf order comes from.
@@ -269,6 +285,8 @@ typedef struct TreeNode TreeNode;
 typedef struct Node Node;
 typedef struct WideNode WideNode;
 typedef struct TriangleBlock TriangleBlock;
+typedef struct FoldCost FoldCost;
+typedef struct FoldPlan FoldPlan;
 typedef struct TriangleInfo TriangleInfo;
 typedef struct Instance Instance;
 typedef struct Material Material;
@@ -291,6 +309,8 @@ FACET_SIZE(TreeNode, 48)
 FACET_SIZE(Node, 64)
 FACET_SIZE(WideNode, 256)
 FACET_SIZE(TriangleBlock, 288)
+FACET_SIZE(FoldCost, 96)
+FACET_SIZE(FoldPlan, 16)
 FACET_SIZE(TriangleInfo, 16)
 FACET_SIZE(Instance, 160)
 FACET_SIZE(Material, 128)

@@ -99,10 +99,10 @@ void add_tracing(CLI::App& app, tracing_options& target) {
   add_device(app, target.device, true);
   add_choice<tracer::tree_kind>(
       app, "--tree", target.tracer.tree,
-      {{"levels", tracer::tree_kind::levels},
-       {"binned", tracer::tree_kind::binned},
+      {{"binned", tracer::tree_kind::binned},
+       {"levels", tracer::tree_kind::levels},
        {"none", tracer::tree_kind::none}},
-      "Tree over the triangles; none tests every triangle (default levels)");
+      "Tree over the triangles; none tests every triangle (default binned)");
   add_kernels(app, target.tracer);
 }
 

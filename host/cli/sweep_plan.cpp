@@ -89,10 +89,10 @@ std::unique_ptr<sweep_plan> plan_sweep(const sweep_request& r, bool on_gpu, cons
   if (!asked.width && !asked.height) asked.width = std::max(1u, b.width / s.samples);
   const size full = picture_size(asked, {s.width, s.height});
   if (wants(r, "no-tree")) add_without_tree(*p, r, full, b, say);
-  if (wants(r, "tree")) add(*p, r, "tree", s, tracer::tree_kind::levels, full);
+  if (wants(r, "tree")) add(*p, r, "tree", s, tracer::tree_kind::binned, full);
   if (wants(r, "large")) {
     p->large = larger_scene(r, say);
-    add(*p, r, "large", p->large, tracer::tree_kind::levels, full);
+    add(*p, r, "large", p->large, tracer::tree_kind::binned, full);
   }
   stop_if_interrupted("reading the scenes");
   return p;

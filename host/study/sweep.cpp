@@ -107,7 +107,7 @@ class run {
     result_.instances = s.instances.size();
     result_.width = of_.width, result_.height = of_.height, result_.max_depth = of_.max_depth;
     result_.samples = s.samples;
-    result_.tree = of_.tree == tracer::tree_kind::none ? "none" : "levels";
+    result_.tree = tracer::word_of(of_.tree);
     result_.kernel_hash = fingerprint_of(kernel);
     result_.text_hash = fingerprint_of(kernel.text);
     result_.options = kernel.options;

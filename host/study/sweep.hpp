@@ -22,7 +22,7 @@ struct experiment {
   std::string name;             ///< "tree"
   const scene* what = nullptr;  ///< valid, and alive until the sweep ends
   tracer::tree_kind tree =
-      tracer::tree_kind::levels;  ///< of the device, and of the serial reference
+      tracer::tree_kind::binned;  ///< of the device, and of the serial reference
   std::uint32_t width = 0, height = 0, max_depth = 0;
 };
 

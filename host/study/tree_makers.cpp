@@ -8,10 +8,10 @@
 namespace facet::study {
 
 const std::vector<tree_maker>& tree_makers() {
-  static const std::vector<tree_maker> all{
-      {"levels", tracer::tree_kind::levels},
-      {"binned", tracer::tree_kind::binned},
-      {"sah", {}}, {"sweep", {}}};
+  static const std::vector<tree_maker> all{{"levels", tracer::tree_kind::levels},
+                                           {"binned", tracer::tree_kind::binned},
+                                           {"sah", {}},
+                                           {"sweep", {}}};
   return all;
 }
 

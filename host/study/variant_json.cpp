@@ -86,7 +86,7 @@ json to_json(const variant_result& v, std::uint64_t pixels) {
   j["kernel"] = {{"hash", v.kernel_hash},         {"text_hash", v.text_hash},
                  {"options", v.compiler_options}, {"features", v.features},
                  {"geometry", v.geometry},        {"largest_group", v.group_items}};
-  j["tree"] = {{"kind", v.of.options.tree == tracer::tree_kind::none ? "none" : "levels"},
+  j["tree"] = {{"kind", tracer::word_of(v.of.options.tree)},
                {"depth", v.tree_depth},
                {"nodes", v.tree_nodes}};
   j["device_bytes"] = v.device_bytes;

@@ -5,17 +5,12 @@
 
 #include "runtime/runtime.hpp"
 #include "tracer/layout.hpp"
+#include "tracer/leaf_rule.hpp"
 #include "tracer/pack.hpp"
 #include "tracer/sort_way.hpp"
 #include "tracer/tuning.hpp"
 
 namespace facet::tracer {
-
-/// When a subtree becomes a leaf (cl/sweep.h).
-struct leaf_rule {
-  std::uint32_t sure = 2;  ///< primitives: a subtree of at most so many always
-  std::uint32_t most = 4;  ///< one of at most so many where the surface area heuristic says so
-};
 
 /// What the top tree is built over, and where nodes go.
 struct tree_parts {

@@ -20,6 +20,12 @@ class levels_builder {
   /// The boxes of the triangles at corners[3i .. 3i+2], i < count.
   runtime::buffer<Box> boxes_of(runtime::buffer<texel>& corners, std::uint32_t count);
 
+  /// Device memory that boxes_of and build take at their peak: boxes, codes and order with their
+  /// sorting copies, tree nodes, subtree ends, level lists.
+  static std::uint64_t scratch_bytes(std::uint64_t primitives) {
+    return primitives * (sizeof(Box) + 2 * sizeof(TreeNode) + 40);
+  }
+
   double compile_ms() const;
 
  private:

@@ -3,10 +3,9 @@
 #include <utility>
 
 #include "runtime/runtime.hpp"
-#include "tracer/binary_builder.hpp"
 #include "tracer/given_tree.hpp"
 #include "tracer/kernels.hpp"
-#include "tracer/tree_builder.hpp"
+#include "tracer/node_trees.hpp"
 
 namespace facet::tracer {
 namespace {
@@ -37,7 +36,7 @@ plain_tree plain(std::span<const TreeNode> from, std::uint32_t root) {
 }
 
 /// Its leaves hold one primitive each.
-plain_tree plain(const device_tree& t) {
+plain_tree plain(const node_tree& t) {
   const runtime::host_accessor nodes{t.nodes, runtime::read_only};
   const runtime::host_accessor order{t.order, runtime::read_only};
   plain_tree to;
@@ -72,18 +71,9 @@ plain_tree built_tree(runtime::queue queue, tree_kind kind, std::span<const texe
   if (kind == tree_kind::none)
     throw runtime::exception(runtime::errc::invalid,
                              "a scene without trees has none to be read; choose a builder");
-  const tuning t = tuning_for(queue.get_device());
   runtime::buffer<texel> on_device(corners.data(), corners.size());
-  if (kind == tree_kind::binned) {
-    device_tree tree;
-    tree_builder<texel>(queue, kernel_sources(), t, {1, 1})
-        .build(on_device, std::uint32_t(corners.size() / 3), tree);
-    return plain(tree);
-  }
-  binary_builder build(queue, kernel_sources(), t);
-  const binary_tree tree = build.over_triangles(on_device, std::uint32_t(corners.size() / 3));
-  const runtime::host_accessor nodes{tree.nodes, runtime::read_only};
-  return plain({nodes.begin(), nodes.end()}, tree.root);
+  return plain(node_trees(queue, kernel_sources(), tuning_for(queue.get_device()), kind, {1, 1})
+                   .over_triangles(on_device, std::uint32_t(corners.size() / 3)));
 }
 
 plain_tree built_tree(const given_tree& given, std::span<const texel> corners) {

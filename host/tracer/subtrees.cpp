@@ -11,8 +11,7 @@ subtrees::subtrees(const runtime::queue& q, const runtime::source_tree& kernels,
       group_(t.list_group),
       scan_group_(t.scan_group),
       most_(most),
-      program_(
-          compiled(q, kernels, "subtrees.cl", t.flags() + " -DMOST=" + std::to_string(most))),
+      program_(compiled(q, kernels, "subtrees.cl", t.flags() + " -DMOST=" + std::to_string(most))),
       mark_(program_.get_kernel("mark_subtrees")),
       scan_(program_.get_kernel("scan_tiles")),
       list_(program_.get_kernel("list_subtrees")) {}

@@ -57,6 +57,18 @@ runtime::buffer<Light> light_buffer(const std::vector<Light>& lights) {
 
 }  // namespace
 
+const char* word_of(tree_kind kind) {
+  switch (kind) {
+    case tree_kind::none:
+      return "none";
+    case tree_kind::levels:
+      return "levels";
+    case tree_kind::binned:
+      return "binned";
+  }
+  return "";
+}
+
 device_scene::device_scene(runtime::queue queue, const scene& s, options o,
                            std::span<const given_tree> given) {
   tuning tuned = tuning_for(queue.get_device());

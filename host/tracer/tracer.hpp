@@ -17,6 +17,8 @@
 namespace facet::tracer {
 
 enum class tree_kind { none, levels, binned };
+/// As the command line names it.
+const char* word_of(tree_kind kind);
 enum class geometry_kind { automatic, buffer, image };
 /// How a kernel finds trees and triangles: four children to a node and one triangle at a time, for
 /// GPUs, or eight of both at a time, for CPUs. Hits are the same. Images are for `narrow`.
@@ -28,7 +30,7 @@ struct kernel_edit {
 };
 
 struct options {
-  tree_kind tree = tree_kind::levels;
+  tree_kind tree = tree_kind::binned;
   geometry_kind geometry = geometry_kind::automatic;
   layout_kind layout = layout_kind::automatic;
   std::uint32_t group_width = 0, group_height = 0;  ///< work-group; 0: the device's default

@@ -4,13 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "tracer/binary_builder.hpp"
-#include "tracer/given_tree.hpp"
 #include "tracer/kernels.hpp"
 #include "tracer/launch.hpp"
 #include "tracer/leaf_order.hpp"
+#include "tracer/node_trees.hpp"
 #include "tracer/stopwatch.hpp"
-#include "tracer/tree_builder.hpp"
 
 namespace facet::tracer {
 namespace {
@@ -18,12 +16,12 @@ namespace {
 constexpr std::uint32_t image_width = 1u << 13;  ///< cl/geometry.h: FACET_IMAGE_BITS
 
 /// Bytes that building and keeping the geometry takes at its peak.
-std::uint64_t peak_bytes(std::uint64_t triangles, std::uint64_t largest_mesh, bool smooth,
-                         bool in_images) {
+std::uint64_t peak_bytes(std::uint64_t triangles, std::uint64_t largest_mesh, tree_kind kind,
+                         bool smooth, bool in_images) {
   const std::uint64_t corners = 48, normals = smooth ? 48u : 0u;
   const std::uint64_t kept = triangles * (sizeof(Node) + sizeof(TriangleInfo) + corners + normals);
   const std::uint64_t uploaded = triangles * (corners + normals + 4);
-  return kept + uploaded + binary_builder::scratch_bytes(largest_mesh) +
+  return kept + uploaded + node_trees::scratch_bytes(largest_mesh, kind) +
          (in_images ? triangles * (corners + normals) : 0);
 }
 
@@ -51,62 +49,27 @@ std::size_t whole_rows(std::size_t texels) {
   return std::max<std::size_t>(1, (texels + image_width - 1) / image_width) * image_width;
 }
 
-/// The steps from binary trees to what traversal reads.
-class geometry_builder {
+/// Puts several trees' nodes into one array, and buffers on the device.
+class node_array {
  public:
-  geometry_builder(runtime::queue& q, const runtime::source_tree& kernels, const tuning& t)
+  node_array(runtime::queue& q, const runtime::source_tree& kernels, const tuning& t)
       : queue_(q),
-        tuning_(t),
-        binary_(q, kernels, t),
+        group_(t.group),
         program_(compiled(q, kernels, "tree.cl", t.flags())),
-        make_nodes_(program_.get_kernel("make_nodes")),
         touch_(program_.get_kernel("touch")),
         append_nodes_(program_.get_kernel("append_nodes")) {}
 
-  double compile_ms() const { return binary_.compile_ms() + program_.build_ms(); }
+  double compile_ms() const { return program_.build_ms(); }
 
-  binary_tree over_triangles(runtime::buffer<texel>& corners, std::uint32_t count) {
-    return binary_.over_triangles(corners, count);
-  }
-
-  binary_tree over_instances(const std::vector<Instance>& placed) {
-    return binary_.over_instances(placed);
-  }
-
-  static binary_tree from(const given_tree& given, std::span<const texel> corners) {
-    const host_binary_tree t = binary_of(given, corners);
-    return {runtime::buffer<TreeNode>(t.nodes.data(), t.nodes.size()),
-            runtime::buffer<std::uint32_t>(t.order.data(), t.order.size()),
-            std::uint32_t(t.order.size()), t.root, t.depth};
-  }
-
-  device_tree emit(binary_tree& tree, std::uint32_t leaf_size) {
-    device_tree t{runtime::buffer<Node>(std::max(1u, tree.count - 1)), tree.order};
-    t.depth = tree.depth;
-    if (tree.count <= leaf_size) {
-      t.root = FACET_LEAF(0u, tree.count);
-      return t;
-    }
-    queue_.submit([&](runtime::handler& h) {
-      const runtime::accessor in{tree.nodes, h, runtime::read_only};
-      const runtime::accessor out{t.nodes, h, runtime::read_write};
-      h.set_args(in, out, tree.count, leaf_size, 0u, 0u);
-      h.parallel_for(padded(tree.count, tuning_.group), make_nodes_);
-    });
-    t.root = tree.root - tree.count;
-    t.node_count = tree.count - 1;
-    return t;
-  }
-
-  /// Puts the tree's nodes behind the first `nodes`.
-  void append(device_tree& tree, runtime::buffer<Node>& all, std::uint32_t nodes,
+  /// Puts the tree's nodes behind the first `nodes`; its places are then counted from `slots` on.
+  void append(node_tree& tree, runtime::buffer<Node>& all, std::uint32_t nodes,
               std::uint32_t slots) {
     if (tree.node_count == 0) return;
     queue_.submit([&](runtime::handler& h) {
       const runtime::accessor from{tree.nodes, h, runtime::read_only};
       const runtime::accessor to{all, h, runtime::read_write};
       h.set_args(from, to, tree.node_count, nodes, slots);
-      h.parallel_for(padded(tree.node_count, tuning_.group), append_nodes_);
+      h.parallel_for(padded(tree.node_count, group_), append_nodes_);
     });
   }
 
@@ -121,10 +84,9 @@ class geometry_builder {
 
  private:
   runtime::queue& queue_;
-  const tuning& tuning_;
-  binary_builder binary_;
+  std::uint32_t group_;
   runtime::program program_;
-  runtime::kernel make_nodes_, touch_, append_nodes_;
+  runtime::kernel touch_, append_nodes_;
 };
 
 runtime::buffer<std::uint32_t> identity_order(std::uint32_t count) {
@@ -150,12 +112,14 @@ device_geometry build_geometry(runtime::queue& q, const runtime::source_tree& ke
                                bool in_images, const tuning& t, std::span<const given_tree> given) {
   const std::size_t triangles = packed.world.triangle_count;
   const bool smooth = f.smooth;
-  const std::uint64_t peak = peak_bytes(triangles, largest_mesh(packed), smooth, in_images);
+  const std::uint64_t peak = peak_bytes(triangles, largest_mesh(packed), kind, smooth, in_images);
   check_memory(q.get_device(), triangles, peak);
 
-  geometry_builder build(q, kernels, t);
+  node_array array(q, kernels, t);
   leaf_order gather(q, kernels, t);
-  tree_builder<texel> builder(q, kernels, t, {t.leaf_sure, t.leaf_size});
+  std::optional<node_trees> build;
+  if (kind != tree_kind::none)
+    build.emplace(q, kernels, t, kind, leaf_rule{t.leaf_sure, t.leaf_size});
   const std::size_t texels =
       in_images ? whole_rows(3 * triangles) : std::max<std::size_t>(1, 3 * triangles);
   const std::size_t instances = packed.instances.size();
@@ -171,7 +135,7 @@ device_geometry build_geometry(runtime::queue& q, const runtime::source_tree& ke
                     std::nullopt};
 
   double build_ms = 0, upload_ms = 0;
-  std::vector<std::optional<device_tree>> trees(packed.meshes.size());
+  std::vector<std::optional<node_tree>> trees(packed.meshes.size());
   for (std::size_t k = 0; k < packed.meshes.size(); ++k) {
     const packed_mesh& m = packed.meshes[k];
     if (m.triangle_count == 0) continue;
@@ -181,8 +145,8 @@ device_geometry build_geometry(runtime::queue& q, const runtime::source_tree& ke
     runtime::buffer<texel> corners(packed.corners.data() + first, size);
     runtime::buffer<std::uint32_t> materials(packed.triangle_materials.data() + m.first_triangle,
                                              m.triangle_count);
-    build.touch(corners);
-    build.touch(materials);
+    array.touch(corners);
+    array.touch(materials);
     q.wait_and_throw();
     upload_ms += milliseconds_since(start_upload);
 
@@ -191,16 +155,10 @@ device_geometry build_geometry(runtime::queue& q, const runtime::source_tree& ke
     if (kind == tree_kind::none) {
       order = identity_order(m.triangle_count);
     } else {
-      if (kind == tree_kind::binned && k >= given.size()) {
-        trees[k].emplace();
-        builder.build(corners, m.triangle_count, *trees[k]);
-      } else {
-        binary_tree tree =
-            k < given.size()
-                ? build.from(given[k], std::span<const texel>(packed.corners).subspan(first, size))
-                : build.over_triangles(corners, m.triangle_count);
-        trees[k] = build.emit(tree, t.leaf_size);
-      }
+      trees[k] =
+          k < given.size()
+              ? build->from(given[k], std::span<const texel>(packed.corners).subspan(first, size))
+              : build->over_triangles(corners, m.triangle_count);
       order = trees[k]->order;
       g.nodes_used += trees[k]->node_count;
     }
@@ -216,10 +174,9 @@ device_geometry build_geometry(runtime::queue& q, const runtime::source_tree& ke
 
   const auto start_top = clock::now();
   std::vector<Instance>& placed = packed.instances;
-  std::optional<device_tree> top;
+  std::optional<node_tree> top;
   if (f.instances && kind != tree_kind::none && !placed.empty()) {
-    binary_tree over = build.over_instances(placed);
-    top = build.emit(over, 1);
+    top = build->over_instances(placed);
     g.nodes_used += top->node_count;
     const runtime::host_accessor order{top->order, runtime::read_only};
     std::vector<Instance> sorted;
@@ -241,14 +198,14 @@ device_geometry build_geometry(runtime::queue& q, const runtime::source_tree& ke
   for (std::size_t k = 0; k < trees.size(); ++k) {
     if (!trees[k]) continue;
     const std::uint32_t slot = packed.meshes[k].first_triangle;
-    if (!is_one) build.append(*trees[k], g.nodes, node, slot);
+    if (!is_one) array.append(*trees[k], g.nodes, node, slot);
     roots[k] = trees[k]->root + (trees[k]->root & FACET_LEAF_BIT ? slot : node);
     node += trees[k]->node_count;
     mesh_depth = std::max(mesh_depth, trees[k]->depth);
   }
   for (std::size_t i = 0; i < placed.size(); ++i) placed[i].root = roots[packed.instance_meshes[i]];
   if (top) {
-    build.append(*top, g.nodes, node, 0);
+    array.append(*top, g.nodes, node, 0);
     packed.world.root = top->root + (top->root & FACET_LEAF_BIT ? 0 : node);
   } else if (!f.instances) {
     packed.world.root = placed.empty() ? FACET_NONE : placed[0].root;
@@ -267,7 +224,7 @@ device_geometry build_geometry(runtime::queue& q, const runtime::source_tree& ke
   q.wait_and_throw();
   g.build_ms = build_ms + milliseconds_since(start_top);
   g.upload_ms = upload_ms;
-  g.compile_ms = build.compile_ms();
+  g.compile_ms = array.compile_ms() + gather.compile_ms() + (build ? build->compile_ms() : 0);
   g.bytes = g.nodes.byte_size() + g.instances.byte_size() + g.infos.byte_size() +
             g.materials.byte_size() + texels * sizeof(texel) * (smooth ? 2 : 1);
   return g;

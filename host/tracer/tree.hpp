@@ -28,7 +28,7 @@ struct device_geometry {
 
   std::uint32_t stack = 1;       ///< entries that traversal may need (cl/features.h: FACET_STACK)
   std::uint32_t depth = 0;       ///< deepest way from the top's root to a leaf
-  std::uint64_t nodes_used = 0;  ///< nodes of all binary trees, 2n - 1 each
+  std::uint64_t nodes_used = 0;  ///< of all binary trees that the layout is made from
   std::uint64_t bytes = 0;       ///< of device memory that stays allocated
   double compile_ms = 0, upload_ms = 0, build_ms = 0;
 };

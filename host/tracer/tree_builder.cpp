@@ -47,6 +47,8 @@ tree_builder<Primitive>::tree_builder(const runtime::queue& q, const runtime::so
     : leaves_(leaves), parts_(std::make_unique<parts>(q, kernels, t, leaves)) {}
 
 template <class Primitive>
+tree_builder<Primitive>::tree_builder(tree_builder&&) noexcept = default;
+template <class Primitive>
 tree_builder<Primitive>::~tree_builder() = default;
 
 template <class Primitive>
@@ -58,7 +60,7 @@ double tree_builder<Primitive>::compile_ms() const {
 
 template <class Primitive>
 void tree_builder<Primitive>::build(runtime::buffer<Primitive>& primitives, std::uint32_t count,
-                                    device_tree& into) {
+                                    node_tree& into) {
   hold(into.nodes, std::max(usual_nodes(count, leaves_), 1u));
   hold(into.order, count);
   try_build(primitives, count, into);
@@ -69,7 +71,7 @@ void tree_builder<Primitive>::build(runtime::buffer<Primitive>& primitives, std:
 
 template <class Primitive>
 void tree_builder<Primitive>::try_build(runtime::buffer<Primitive>& primitives, std::uint32_t count,
-                                        device_tree& t) {
+                                        node_tree& t) {
   parts& p = *parts_;
   steps_.clear();
   hold(p.codes, count);
@@ -93,7 +95,7 @@ void tree_builder<Primitive>::try_build(runtime::buffer<Primitive>& primitives, 
 }
 
 template <class Primitive>
-std::uint64_t tree_builder<Primitive>::scratch_bytes(std::uint64_t count, const tuning&) {
+std::uint64_t tree_builder<Primitive>::scratch_bytes(std::uint64_t count) {
   // Nodes and order; codes and their and the order's copies for the sort; what the top has.
   const std::uint64_t items = count / 8 + 1;  // subtrees hold 16 primitives or more, but for ties
   return count * (sizeof(Node) * 62 / 100 + 4 + 12) + items * (sizeof(Item) + 8) +

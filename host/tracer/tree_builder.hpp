@@ -13,18 +13,10 @@
 #include "runtime/runtime.hpp"
 #include "tracer/bottoms.hpp"
 #include "tracer/morton.hpp"
+#include "tracer/node_tree.hpp"
 #include "tracer/radix_sort.hpp"
 
 namespace facet::tracer {
-
-/// A child's index is larger than its parent's. `nodes` may have room for more than `node_count`.
-struct device_tree {
-  runtime::buffer<Node> nodes{1};
-  runtime::buffer<std::uint32_t> order{1};  ///< leaf place -> primitive, 1 a primitive
-  std::uint32_t root = FACET_NONE;          ///< as a child
-  std::uint32_t node_count = 0;
-  std::uint32_t depth = 0;  ///< nodes on the longest way down
-};
 
 /// Primitive is texel (triangles, three corners a row) or Box. Memory is kept from build to build.
 template <class Primitive>
@@ -32,15 +24,16 @@ class tree_builder {
  public:
   tree_builder(const runtime::queue& q, const runtime::source_tree& kernels, const tuning& t,
                leaf_rule leaves);
+  tree_builder(tree_builder&&) noexcept;
   ~tree_builder();
 
-  /// The tree over the first `count` > 0 primitives; finite ones. Memory that `into` holds is used
-  /// again where it is enough.
-  void build(runtime::buffer<Primitive>& primitives, std::uint32_t count, device_tree& into);
+  /// The tree over the first `count` > 0 primitives; finite ones. A child's index is larger than
+  /// its parent's. Memory that `into` holds is used again where it is enough.
+  void build(runtime::buffer<Primitive>& primitives, std::uint32_t count, node_tree& into);
 
   /// Bytes of device memory that a build takes at its peak beside its primitives, what it returns
   /// included.
-  static std::uint64_t scratch_bytes(std::uint64_t count, const tuning& t);
+  static std::uint64_t scratch_bytes(std::uint64_t count);
 
   /// The commands of the last build.
   const std::vector<sort_step>& steps() const { return steps_; }
@@ -48,7 +41,7 @@ class tree_builder {
 
  private:
   struct parts;
-  void try_build(runtime::buffer<Primitive>& primitives, std::uint32_t count, device_tree& t);
+  void try_build(runtime::buffer<Primitive>& primitives, std::uint32_t count, node_tree& t);
 
   leaf_rule leaves_;
   std::vector<sort_step> steps_;

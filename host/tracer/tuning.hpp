@@ -13,14 +13,15 @@ struct tuning {
   std::uint32_t group = 64;  ///< work-items a group of one-dimensional kernels
   std::uint32_t render_group_width = 8,
                 render_group_height = 8;  ///< the render kernel's work-group
-  std::uint32_t leaf_sure = 2;  ///< triangles: a subtree of at most so many is a leaf, ...
-  std::uint32_t leaf_size = 4;  ///< ... of more than so many not (1 to 16)
+  std::uint32_t leaf_sure = 2;    ///< triangles: a subtree of at most so many is a leaf, ...
+  std::uint32_t leaf_size = 4;    ///< ... of more than so many not (1 to 16)
+  std::uint32_t block_run = 256;  ///< blocks of the wide layout that a work-item makes
   sort_tuning sort;
   std::uint32_t bounds_group = 16,
                 bounds_groups = 64;  ///< of the kernels of cl/morton.cl; a power of 2
   bool serial_trees = true;  ///< a work-item builds a tree alone (cl/serial_tree.cl), not a group
   std::uint32_t list_group = 64, scan_group = 1;  ///< of cl/subtrees.cl; powers of 2
-  bool image_geometry = false;                         ///< what --geometry auto means
+  bool image_geometry = false;                    ///< what --geometry auto means
   bool wide_layout = false;        ///< what layout_kind::automatic means, but for images
   bool hardware_minmax = false;    ///< cl/device.h
   bool correctly_rounded = false;  ///< the device can be asked for exact divide and sqrt

@@ -2,172 +2,235 @@
 
 #include <algorithm>
 #include <numeric>
-#include <string>
+#include <optional>
+#include <utility>
 #include <vector>
 
-#include "tracer/binary_builder.hpp"
-#include "tracer/given_tree.hpp"
+#include "tracer/blocks.hpp"
+#include "tracer/fold.hpp"
+#include "tracer/node_trees.hpp"
 #include "tracer/stopwatch.hpp"
-#include "tracer/wide_layout.hpp"
 
 namespace facet::tracer {
 namespace {
 
-/// What the device keeps, as it grows mesh by mesh.
-struct arrays {
-  std::vector<WideNode> nodes;
-  std::vector<TriangleBlock> blocks;
-  std::vector<TriangleInfo> infos;  ///< by slot
-  std::vector<texel> normals;       ///< three a slot
+std::uint32_t blocks_of(std::uint32_t triangles) {
+  return (triangles + FACET_BLOCK - 1) / FACET_BLOCK;
+}
 
-  std::uint32_t slots() const { return std::uint32_t(infos.size()); }
+runtime::buffer<std::uint32_t> uploaded(const std::vector<std::uint32_t>& from) {
+  return {from.data(), from.size()};
+}
+
+/// The mesh's own order, in whole blocks.
+block_list blocks_in_order(std::uint32_t triangles) {
+  std::vector<std::uint32_t> leaves, order(triangles);
+  for (std::uint32_t first = 0; first < triangles; first += FACET_BLOCK)
+    leaves.push_back(FACET_LEAF(first, std::min(FACET_BLOCK, triangles - first)));
+  std::iota(order.begin(), order.end(), 0u);
+  return {uploaded(leaves), uploaded(order), blocks_of(triangles)};
+}
+
+/// A mesh with its tree, until its place in the scene's arrays is known.
+struct planned_mesh {
+  std::uint32_t mesh;
+  runtime::buffer<texel> corners;
+  runtime::buffer<std::uint32_t> materials;
+  node_tree tree;
+  fold_plan fold;
 };
 
-/// Where a mesh stands in them.
+/// Where a mesh stands in the scene's arrays.
 struct mesh_place {
   std::uint32_t root = FACET_NONE, first_slot = 0, slots = 0;
 };
 
-host_binary_tree read(const binary_tree& t) {
-  const runtime::host_accessor nodes{t.nodes, runtime::read_only};
-  const runtime::host_accessor order{t.order, runtime::read_only};
-  return {{nodes.begin(), nodes.begin() + std::ptrdiff_t(2 * std::size_t(t.count) - 1)},
-          {order.begin(), order.begin() + std::ptrdiff_t(t.count)},
-          t.root,
-          t.depth};
-}
-
-/// The mesh's own order, in whole blocks.
-std::vector<std::uint32_t> blocks_in_order(std::uint32_t count) {
-  const std::uint32_t whole = (count + FACET_BLOCK - 1) / FACET_BLOCK * FACET_BLOCK;
-  std::vector<std::uint32_t> order(whole, FACET_NONE);
-  std::iota(order.begin(), order.begin() + std::ptrdiff_t(count), 0u);
-  return order;
-}
-
-/// A lane without a triangle has what the first of its block has, as it repeats a corner of that.
-void append_triangles(const packed_scene& from, const packed_mesh& m,
-                      const std::vector<std::uint32_t>& order, bool smooth, arrays& to) {
-  const std::size_t first = m.first_triangle, count = m.triangle_count;
-  append_blocks(order, std::span(from.corners).subspan(3 * first, 3 * count), to.blocks);
-  for (std::size_t slot = 0; slot < order.size(); ++slot) {
-    const std::uint32_t there =
-        order[slot] == FACET_NONE ? order[slot - slot % FACET_BLOCK] : order[slot];
-    to.infos.push_back({there, from.triangle_materials[first + there], {}});
-    if (!smooth) continue;
-    const auto normals = from.normals.begin() + std::ptrdiff_t(3 * (first + there));
-    to.normals.insert(to.normals.end(), normals, normals + 3);
+/// Plans all trees before it writes any: only then is it known how large the scene's arrays are.
+class wide_builder {
+ public:
+  wide_builder(runtime::queue& q, const runtime::source_tree& kernels, packed_scene packed,
+               const features& f, tree_kind kind, const tuning& t)
+      : queue_(q),
+        packed_(std::move(packed)),
+        features_(f),
+        kind_(kind),
+        triangles_(packed_.world.triangle_count),
+        fold_(q, kernels, t),
+        blocks_(q, kernels, t),
+        places_(packed_.meshes.size()) {
+    if (has_trees()) trees_.emplace(q, kernels, t, kind, leaf_rule{FACET_BLOCK, FACET_BLOCK});
+    const std::uint64_t largest = largest_mesh(packed_);
+    check_memory(
+        q.get_device(), triangles_,
+        triangles_ * uploaded_bytes + (has_trees() ? node_trees::scratch_bytes(largest, kind) : 0));
   }
-}
 
-template <class T>
-runtime::buffer<T> uploaded(const std::vector<T>& from) {
-  return from.empty() ? runtime::buffer<T>(1) : runtime::buffer<T>(from.data(), from.size());
-}
+  device_geometry build(std::span<const given_tree> given) {
+    const auto start_upload = clock::now();
+    for (std::uint32_t k = 0; k < packed_.meshes.size(); ++k)
+      if (packed_.meshes[k].triangle_count > 0) upload(k);
+    queue_.wait_and_throw();
+    const double upload_ms = milliseconds_since(start_upload);
 
-template <class T>
-std::uint64_t bytes_of(const std::vector<T>& of) {
-  return of.size() * sizeof(T);
-}
+    const auto start_build = clock::now();
+    for (planned_mesh& m : meshes_) plan(m, given);
+    plan_instances();
+    device_geometry g = allocated();
+    for (planned_mesh& m : meshes_) write(m, g);
+    write_instances(g);
+    queue_.wait_and_throw();
+    g.build_ms = milliseconds_since(start_build);
+    g.upload_ms = upload_ms;
+    g.compile_ms = (trees_ ? trees_->compile_ms() : 0) + fold_.compile_ms() + blocks_.compile_ms();
+    return g;
+  }
+
+ private:
+  /// Of a triangle, until its blocks are made: corners and material.
+  static constexpr std::uint64_t uploaded_bytes = 3 * sizeof(texel) + sizeof(std::uint32_t);
+
+  bool has_trees() const { return kind_ != tree_kind::none; }
+  const packed_mesh& packed(const planned_mesh& m) const { return packed_.meshes[m.mesh]; }
+  std::span<const texel> corners_of(const planned_mesh& m) const {
+    return std::span<const texel>(packed_.corners)
+        .subspan(3 * std::size_t(packed(m).first_triangle),
+                 3 * std::size_t(packed(m).triangle_count));
+  }
+
+  void upload(std::uint32_t mesh) {
+    const packed_mesh& m = packed_.meshes[mesh];
+    meshes_.push_back(
+        {mesh,
+         {&packed_.corners[3 * std::size_t(m.first_triangle)], 3 * std::size_t(m.triangle_count)},
+         {&packed_.triangle_materials[m.first_triangle], m.triangle_count},
+         {},
+         {0, blocks_of(m.triangle_count), 0, runtime::buffer<FoldPlan>(1)}});
+  }
+
+  void plan(planned_mesh& m, std::span<const given_tree> given) {
+    if (has_trees()) {
+      m.tree = m.mesh < given.size() ? trees_->from(given[m.mesh], corners_of(m))
+                                     : trees_->over_triangles(m.corners, packed(m).triangle_count);
+      m.fold = fold_.plan(m.tree);
+      mesh_binary_depth_ = std::max(mesh_binary_depth_, m.tree.depth);
+      mesh_depth_ = std::max(mesh_depth_, m.fold.depth);
+      binary_nodes_ += m.tree.node_count;
+    }
+    nodes_ += m.fold.nodes;
+    slots_ += m.fold.leaves * FACET_BLOCK;
+    kept_scratch_ += std::uint64_t(packed(m).triangle_count) * sizeof(std::uint32_t) +
+                     std::uint64_t(m.tree.node_count) * sizeof(Node) +
+                     folder::kept_bytes(m.tree.node_count);
+  }
+
+  void plan_instances() {
+    if (!features_.instances || !has_trees() || packed_.instances.empty()) return;
+    top_.push_back({trees_->over_instances(packed_.instances),
+                    fold_plan{0, 0, 0, runtime::buffer<FoldPlan>(1)}});
+    top_[0].second = fold_.plan(top_[0].first);
+    top_binary_depth_ = top_[0].first.depth;
+    top_depth_ = top_[0].second.depth;
+    binary_nodes_ += top_[0].first.node_count;
+    nodes_ += top_[0].second.nodes;
+  }
+
+  device_geometry allocated() const {
+    const std::uint64_t bytes =
+        nodes_ * sizeof(WideNode) +
+        slots_ * (sizeof(TriangleBlock) / FACET_BLOCK + sizeof(TriangleInfo) +
+                  (features_.smooth ? 3 * sizeof(texel) : 0)) +
+        packed_.instances.size() * sizeof(Instance) + packed_.materials.size() * sizeof(Material);
+    const std::uint64_t normals = features_.smooth ? 3 * sizeof(texel) : 0;
+    check_memory(queue_.get_device(), triangles_,
+                 bytes + triangles_ * (uploaded_bytes + normals) + kept_scratch_);
+    const auto room = [](std::uint64_t count) { return std::max<std::uint64_t>(1, count); };
+    device_geometry g{runtime::buffer<World>(1),
+                      runtime::buffer<Node>(1),
+                      runtime::buffer<WideNode>(room(nodes_)),
+                      runtime::buffer<Instance>(1),
+                      runtime::buffer<TriangleInfo>(room(slots_)),
+                      runtime::buffer<Material>(packed_.materials.data(), packed_.materials.size()),
+                      runtime::buffer<texel>(
+                          room(slots_ / FACET_BLOCK * (sizeof(TriangleBlock) / sizeof(texel)))),
+                      runtime::buffer<texel>(room(features_.smooth ? 3 * slots_ : 0)),
+                      std::nullopt,
+                      std::nullopt};
+    g.is_wide = true;
+    g.depth = mesh_binary_depth_ + top_binary_depth_;
+    // cl/search_wide.h: seven entries a level of either tree, and one where an instance is entered.
+    g.stack = 7 * (mesh_depth_ + top_depth_) + (features_.instances ? 1 : 0);
+    g.nodes_used = binary_nodes_;
+    g.bytes = bytes;
+    return g;
+  }
+
+  void write(planned_mesh& m, device_geometry& to) {
+    const std::uint32_t triangles = packed(m).triangle_count, first_block = next_block_;
+    mesh_place& there = places_[m.mesh];
+    there.first_slot = first_block * FACET_BLOCK;
+    there.slots = m.fold.leaves * FACET_BLOCK;
+    block_list list{runtime::buffer<std::uint32_t>(m.fold.leaves), m.tree.order, m.fold.leaves};
+    if (has_trees())
+      there.root = fold_.emit(m.tree, m.fold, to.wide_nodes, next_node_, list.leaves, first_block);
+    else
+      list = blocks_in_order(triangles);
+    blocks_.make(list, m.corners, m.materials, to.corners, to.infos, first_block);
+    if (features_.smooth) {
+      const runtime::buffer<texel> normals(
+          &packed_.normals[3 * std::size_t(packed(m).first_triangle)], 3 * std::size_t(triangles));
+      blocks_.normals(list, normals, to.normals, first_block);
+    }
+    next_node_ += m.fold.nodes;
+    next_block_ += m.fold.leaves;
+  }
+
+  void write_instances(device_geometry& to) {
+    std::vector<Instance>& placed = packed_.instances;
+    for (std::size_t i = 0; i < placed.size(); ++i) {
+      const mesh_place& there = places_[packed_.instance_meshes[i]];
+      placed[i].root = there.root;
+      placed[i].first_triangle = there.first_slot;
+      placed[i].triangle_count = there.slots;
+    }
+    if (!features_.instances) packed_.world.root = placed.empty() ? FACET_NONE : placed[0].root;
+    for (auto& [tree, plan] : top_) {
+      runtime::buffer<std::uint32_t> leaves(plan.leaves);
+      packed_.world.root = fold_.emit(tree, plan, to.wide_nodes, next_node_, leaves, 0);
+      const runtime::host_accessor leaf{leaves, runtime::read_only};
+      const runtime::host_accessor order{tree.order, runtime::read_only};
+      std::vector<Instance> sorted;
+      for (const std::uint32_t place : leaf)
+        sorted.push_back(placed[order[FACET_LEAF_FIRST(place)]]);
+      placed = std::move(sorted);
+    }
+    if (!placed.empty()) to.instances = runtime::buffer<Instance>(placed.data(), placed.size());
+    packed_.world.triangle_count = std::uint32_t(slots_);
+    to.world = runtime::buffer<World>(&packed_.world, 1);
+  }
+
+  runtime::queue queue_;
+  packed_scene packed_;
+  features features_;
+  tree_kind kind_;
+  std::uint64_t triangles_;
+  std::optional<node_trees> trees_;
+  folder fold_;
+  block_maker blocks_;
+  std::vector<planned_mesh> meshes_;
+  std::vector<mesh_place> places_;                    ///< by mesh of the scene
+  std::vector<std::pair<node_tree, fold_plan>> top_;  ///< over instances; one at most
+  std::uint64_t nodes_ = 0, slots_ = 0, binary_nodes_ = 0, kept_scratch_ = 0;
+  std::uint32_t mesh_depth_ = 0, top_depth_ = 0;
+  std::uint32_t mesh_binary_depth_ = 0, top_binary_depth_ = 0;
+  std::uint32_t next_node_ = 0, next_block_ = 0;
+};
 
 }  // namespace
 
 device_geometry build_wide_geometry(runtime::queue& q, const runtime::source_tree& kernels,
                                     packed_scene packed, const features& f, tree_kind kind,
                                     const tuning& t, std::span<const given_tree> given) {
-  const std::uint64_t triangles = packed.world.triangle_count, largest = largest_mesh(packed);
-  check_memory(q.get_device(), triangles,
-               3 * sizeof(texel) * largest + binary_builder::scratch_bytes(largest));
-
-  const auto start_build = clock::now();
-  binary_builder build(q, kernels, t);
-  arrays to;
-  std::uint32_t depth = 0, binary_depth = 0;
-  std::uint64_t binary_nodes = 0;
-  std::vector<mesh_place> places(packed.meshes.size());
-  for (std::size_t k = 0; k < packed.meshes.size(); ++k) {
-    const packed_mesh& m = packed.meshes[k];
-    if (m.triangle_count == 0) continue;
-    mesh_place& there = places[k];
-    there.first_slot = to.slots();
-    if (kind == tree_kind::none) {
-      append_triangles(packed, m, blocks_in_order(m.triangle_count), f.smooth, to);
-    } else {
-      const auto corners =
-          std::span<const texel>(packed.corners)
-              .subspan(3 * std::size_t(m.first_triangle), 3 * std::size_t(m.triangle_count));
-      const auto built = [&] {
-        runtime::buffer<texel> on_device(corners);
-        return read(build.over_triangles(on_device, m.triangle_count));
-      };
-      const host_binary_tree binary = k < given.size() ? binary_of(given[k], corners) : built();
-      const wide_tree tree =
-          widened(binary.nodes, binary.root, m.triangle_count, FACET_BLOCK,
-                  std::uint32_t(to.nodes.size()), there.first_slot / FACET_BLOCK);
-      append_triangles(packed, m, tree.order, f.smooth, to);
-      to.nodes.insert(to.nodes.end(), tree.nodes.begin(), tree.nodes.end());
-      there.root = tree.root;
-      depth = std::max(depth, tree.depth);
-      binary_depth = std::max(binary_depth, binary.depth);
-      binary_nodes += binary.nodes.size();
-    }
-    there.slots = to.slots() - there.first_slot;
-  }
-  std::vector<Instance>& placed = packed.instances;
-  for (std::size_t i = 0; i < placed.size(); ++i) {
-    const mesh_place& there = places[packed.instance_meshes[i]];
-    placed[i].root = there.root;
-    placed[i].first_triangle = there.first_slot;
-    placed[i].triangle_count = there.slots;
-  }
-  if (!f.instances) {
-    packed.world.root = placed.empty() ? FACET_NONE : placed[0].root;
-  } else if (kind != tree_kind::none && !placed.empty()) {
-    const host_binary_tree binary = read(build.over_instances(placed));
-    const wide_tree top = widened(binary.nodes, binary.root, std::uint32_t(placed.size()), 1,
-                                  std::uint32_t(to.nodes.size()), 0);
-    std::vector<Instance> sorted;
-    sorted.reserve(placed.size());
-    for (const std::uint32_t i : top.order) sorted.push_back(placed[i]);
-    placed = std::move(sorted);
-    to.nodes.insert(to.nodes.end(), top.nodes.begin(), top.nodes.end());
-    packed.world.root = top.root;
-    depth += top.depth;
-    binary_depth += binary.depth;
-    binary_nodes += binary.nodes.size();
-  }
-  packed.world.triangle_count = to.slots();
-  const std::uint64_t bytes = bytes_of(to.nodes) + bytes_of(to.blocks) + bytes_of(to.infos) +
-                              bytes_of(to.normals) + bytes_of(placed) + bytes_of(packed.materials);
-  check_memory(q.get_device(), triangles, bytes);
-  const double build_ms = milliseconds_since(start_build);
-
-  const auto start_upload = clock::now();
-  // As texels, which is what a kernel's parameter counts in.
-  const auto* corners = reinterpret_cast<const texel*>(to.blocks.data());
-  device_geometry g{runtime::buffer<World>(&packed.world, 1),
-                    runtime::buffer<Node>(1),
-                    uploaded(to.nodes),
-                    uploaded(placed),
-                    uploaded(to.infos),
-                    runtime::buffer<Material>(packed.materials.data(), packed.materials.size()),
-                    to.blocks.empty()
-                        ? runtime::buffer<texel>(1)
-                        : runtime::buffer<texel>(corners, bytes_of(to.blocks) / sizeof(texel)),
-                    uploaded(to.normals),
-                    std::nullopt,
-                    std::nullopt};
-  q.wait_and_throw();
-  g.is_wide = true;
-  g.depth = binary_depth;
-  // cl/search_wide.h: seven entries a level of either tree, and one where an instance is entered.
-  g.stack = 7 * depth + (f.instances ? 1 : 0);
-  g.nodes_used = binary_nodes;
-  g.bytes = bytes;
-  g.build_ms = build_ms;
-  g.upload_ms = milliseconds_since(start_upload);
-  g.compile_ms = build.compile_ms();
-  return g;
+  return wide_builder(q, kernels, std::move(packed), f, kind, t).build(given);
 }
 
 }  // namespace facet::tracer

@@ -7,8 +7,8 @@
 
 namespace facet::tracer {
 
-/// As build_geometry (tree.hpp), in buffers and in the wide layout: the device builds the binary
-/// trees, the host folds them (wide_layout.hpp).
+/// As build_geometry (tree.hpp), in buffers and in the wide layout: binary trees are built, then
+/// cut (cut_tree.hpp) and folded (fold.hpp).
 device_geometry build_wide_geometry(runtime::queue& q, const runtime::source_tree& kernels,
                                     packed_scene packed, const features& f, tree_kind kind,
                                     const tuning& t, std::span<const given_tree> given);

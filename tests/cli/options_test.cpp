@@ -81,7 +81,7 @@ TEST_CASE("a bounce limit beyond the scene model's is refused") {
 }
 
 TEST_CASE("choices name what is allowed") {
-  CHECK(contains(refused({"--tree", "oak"}), "found \"oak\"; allowed: levels|none"));
+  CHECK(contains(refused({"--tree", "oak"}), "found \"oak\"; allowed: binned|levels|none"));
   CHECK(contains(refused({"--geometry", "texture"}), "auto|buffer|image"));
   CHECK(contains(refused({"--transfer", "gamma"}), "linear|srgb"));
 }

@@ -39,7 +39,7 @@ for target in spir64-unknown-unknown nvptx64-nvidia-nvcl amdgcn-amd-amdhsa; do
   # What render.cl is made of, asked one by one: with everything, and with all left out.
   echo "$target code probe.cl"
   echo "$target code probe.cl${derived[*]/#/ -D}"
-  for kernel in morton.cl levels.cl tree.cl look_back.cl; do
+  for kernel in morton.cl levels.cl tree.cl look_back.cl cut_tree.cl fold.cl blocks.cl; do
     echo "$target code $kernel"
   done
   for key in uint ulong; do

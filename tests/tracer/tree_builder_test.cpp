@@ -50,7 +50,7 @@ template <class Primitive>
 plain_tree checked(std::size_t face, const std::vector<Primitive>& primitives, std::uint32_t n,
                    leaf_rule rule, const std::function<Box(std::uint32_t)>& box_of) {
   runtime::buffer<Primitive> in(primitives.data(), primitives.size());
-  device_tree t;
+  node_tree t;
   builder_of<Primitive>(face, rule).build(in, n, t);
   const auto nodes = content(t.nodes);
   const auto order = content(t.order);

@@ -37,15 +37,18 @@ std::vector<way> ways(const lab& l, bool with_brute_force) {
     o.all_features = every_feature;
     all.push_back({std::move(name), std::move(o)});
   };
-  add("levels, buffer, 64", tree_kind::levels, geometry_kind::buffer, 0, 0, false);
-  add("levels, buffer, the other layout", tree_kind::levels, geometry_kind::buffer, 0, 0, false);
-  all.back().options.layout = other_layout(l);
-  add("levels, image, 64", tree_kind::levels, geometry_kind::image, 0, 0, false);
-  add("levels, buffer, 1", tree_kind::levels, geometry_kind::buffer, 1, 1, false);
-  add("levels, buffer, 16x16", tree_kind::levels, geometry_kind::buffer, 16, 16, false);
-  add("levels, buffer, all features", tree_kind::levels, geometry_kind::buffer, 0, 0, true);
+  for (const tree_kind tree : {tree_kind::binned, tree_kind::levels}) {
+    const std::string name = tracer::word_of(tree);
+    add(name + ", buffer, 64", tree, geometry_kind::buffer, 0, 0, false);
+    add(name + ", buffer, the other layout", tree, geometry_kind::buffer, 0, 0, false);
+    all.back().options.layout = other_layout(l);
+    add(name + ", image, 64", tree, geometry_kind::image, 0, 0, false);
+  }
+  add("binned, buffer, 1", tree_kind::binned, geometry_kind::buffer, 1, 1, false);
+  add("binned, buffer, 16x16", tree_kind::binned, geometry_kind::buffer, 16, 16, false);
+  add("binned, buffer, all features", tree_kind::binned, geometry_kind::buffer, 0, 0, true);
   // As triangle.h says, that is sure to change nothing where it is left out.
-  add("levels, buffer, t always held", tree_kind::levels, geometry_kind::buffer, 0, 0, false);
+  add("binned, buffer, t always held", tree_kind::binned, geometry_kind::buffer, 0, 0, false);
   all.back().options.edits.push_back({"triangle.h", "is_held = met & !is_sure;", "is_held = met;"});
   if (with_brute_force) {
     add("none, buffer, 64", tree_kind::none, geometry_kind::buffer, 0, 0, false);

@@ -1,0 +1,15 @@
+// When a subtree becomes a leaf.
+#pragma once
+
+#include <cstdint>
+
+namespace facet::tracer {
+
+struct leaf_rule {
+  std::uint32_t sure = 2;  ///< primitives: a subtree of at most so many always, at least 1
+  /// One of at most so many, up to 16, where testing all of them costs no more than visiting the
+  /// children, by the surface area heuristic (MacDonald and Booth 1990).
+  std::uint32_t most = 4;
+};
+
+}  // namespace facet::tracer
