@@ -31,6 +31,7 @@ SECTIONS = {
     "facet-bench-trace": (1, "tracing", "Tracing, beside a peer", report_benches.trace),
     "facet-bench-pictures": (1, "whole-pictures", "Whole pictures", report_benches.pictures),
     "facet-bench-sort": (1, "sorting", "Sorting, beside peers", report_benches.sort),
+    "facet-bench-fold": (1, "folding", "Folding", report_benches.fold),
     "facet-bench-reference": (1, "reference", "The serial reference, beside a peer",
                               report_benches.reference),
 }

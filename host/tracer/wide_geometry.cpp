@@ -66,6 +66,7 @@ class wide_builder {
         fold_(q, kernels, t),
         blocks_(q, kernels, t),
         places_(packed_.meshes.size()) {
+    // What planning takes of a mesh is less than what building and cutting took.
     const std::uint64_t largest = largest_mesh(packed_);
     check_memory(
         q.get_device(), triangles_,
@@ -119,20 +120,25 @@ class wide_builder {
 
   void plan(planned_mesh& m, std::span<const given_tree> given) {
     if (has_trees()) {
-      const binary_tree binary = m.mesh < given.size()
-                                     ? uploaded(binary_of(given[m.mesh], corners_of(m)))
-                                     : binary_.over_triangles(m.corners, packed(m).triangle_count);
-      m.tree = cut_.cut(binary, FACET_BLOCK);
+      m.tree = cut_mesh(m, given);
       m.fold = fold_.plan(m.tree);
-      mesh_binary_depth_ = std::max(mesh_binary_depth_, binary.depth);
       mesh_depth_ = std::max(mesh_depth_, m.fold.depth);
-      binary_nodes_ += binary.nodes.size();
     }
     nodes_ += m.fold.nodes;
     slots_ += m.fold.leaves * FACET_BLOCK;
     kept_scratch_ += std::uint64_t(packed(m).triangle_count) * sizeof(std::uint32_t) +
                      std::uint64_t(m.tree.node_count) * sizeof(Node) +
                      folder::kept_bytes(m.tree.node_count);
+  }
+
+  /// The binary tree itself, which is the larger one, is given back.
+  node_tree cut_mesh(planned_mesh& m, std::span<const given_tree> given) {
+    const binary_tree binary = m.mesh < given.size()
+                                   ? uploaded(binary_of(given[m.mesh], corners_of(m)))
+                                   : binary_.over_triangles(m.corners, packed(m).triangle_count);
+    mesh_binary_depth_ = std::max(mesh_binary_depth_, binary.depth);
+    binary_nodes_ += binary.nodes.size();
+    return cut_.cut(binary, FACET_BLOCK);
   }
 
   void plan_instances() {
