@@ -228,3 +228,17 @@ def sort(root, _):
                   f"host's clock; how many times as fast it is by the host's clock as {name}, and as "
                   "std::sort", ("#keys", "#bits of a key", "#sorted by", "#device", "#host's clock", "#TBB",
                                 "#ratio", "#std::sort", "#ratio to it"), rows)]
+
+
+def fold(root, _):
+    def time(step):
+        return f"{number(step['median'].get(float))} {ends(step['least'].get(float), step['most'].get(float))}"
+
+    steps = ("tree", "plan", "emit", "blocks")
+    rows = [(r["mesh"].get(str), *(number(r[key].get(int)) for key in ("triangles", "nodes", "blocks", "depth")),
+             *(time(r["ms"][step]) for step in steps), number(sum(r["ms"][step]["first"].get(float) for step in steps)))
+            for r in root["results"].items()]
+    return [table("From a binary tree to the wide layout: milliseconds by the host's clock, median "
+                  "(least\N{EN DASH}most)",
+                  ("mesh", "#triangles", "#nodes", "#blocks", "#depth", "#cutting", "#planning",
+                   "#nodes written", "#blocks written", "#first run, in all"), rows)]

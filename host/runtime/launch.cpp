@@ -106,8 +106,8 @@ void check_shape(const kernel_state& k, const kernel_limits& l, const launch_sha
                  to_string(most[std::size_t(i)]));
     items *= s.local[i];  // no overflow: each factor is within the device's limits
   }
-  // What a kernel requires it was compiled for, whatever the driver then names as the most: NVIDIA's
-  // says 256.
+  // What a kernel requires it was compiled for, whatever the driver then names as the most:
+  // NVIDIA's says 256.
   if (!l.required[0] && items > l.work_group_size)
     refuse(errc::nd_range, k,
            "a work-group of " + local + " has " + to_string(items) + " work-items; on " + d.name() +

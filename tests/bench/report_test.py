@@ -275,6 +275,7 @@ class Report(FilesTest):
             "reference": [bench, "reference", "--terrain", "2", "--soup", "0", "--repeat", "1"],
             "pictures": [bench, "pictures", knot, "--width", "32", "--repeat", "1"],
             "sort": [bench, "sort", "--count", "100", "--repeat", "2"],
+            "fold": [bench, "fold", "--mesh", "terrain:1", "terrain:20", "--repeat", "2"],
             "growth": [bench, "growth", "--triangles", "10", "20", "--width", "64", "--repeat", "2"],
         }
         files = []

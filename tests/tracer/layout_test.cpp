@@ -59,7 +59,8 @@ TEST_CASE("the device lays out every shared structure as the host does") {
       "#include \"layout.h\"\n"
       "__kernel void ask(__global uint* out) {\n"
       "Box x_Box; TreeNode x_TreeNode; Node x_Node; WideNode x_WideNode;\n"
-      "TriangleBlock x_TriangleBlock; FoldCost x_FoldCost; FoldPlan x_FoldPlan; TriangleInfo x_TriangleInfo; Instance x_Instance;\n"
+      "TriangleBlock x_TriangleBlock; FoldCost x_FoldCost; FoldPlan x_FoldPlan; TriangleInfo "
+      "x_TriangleInfo; Instance x_Instance;\n"
       "Material x_Material; Light x_Light; View x_View; World x_World; Ray x_Ray; Hit "
       "x_Hit; Faults x_Faults; SurfacePoint x_SurfacePoint; Passage x_Passage;\n" EXPANDED(
           FIELDS(DEVICE_SIZE, DEVICE_FIELD)) "\n}\n";

@@ -78,7 +78,6 @@ void large_field(lab& l) {
   const auto triangles = double(field.triangle_count());
   l.note_figure("triangles", triangles, "");
   l.note_figure("bytes of corners", 48 * triangles, "");
-  l.note_figure("bytes of nodes", 128 * triangles, "");
   l.report_figure("depth", depth_of(on), 63 + log2_up(field.triangle_count()), "");
   // Straight down: brute force over the cells around is brute force over all.
   trace_and_check(
@@ -151,16 +150,24 @@ void equal_codes(lab& l) {
   if (l.wrong) sizes = {16};
   for (const std::uint32_t n : sizes) {
     const scene s = scene_with(concentric(n, l.seed));
-    tracer::device_scene on = l.place(s);
-    l.report_figure("depth of " + std::to_string(n), depth_of(on), log2_up(n), "");
-    if (n > 4096) continue;
     const reference::tracer<float> serial(s);
-    trace_and_check(
-        l, on, "other bits than brute force, " + std::to_string(n), l.at_most(2000),
-        [&](std::uint64_t i) { return inward_ray(l.seed, i); },
-        [&](std::uint64_t, const tracer::ray& r, const tracer::hit& h) {
-          return same_hit(h, serial.closest_brute(serial_ray(r)));
-        });
+    for (const tracer::tree_kind tree : {tracer::tree_kind::levels, tracer::tree_kind::binned}) {
+      tracer::options o = l.options;
+      o.tree = tree;
+      tracer::device_scene on = l.place(s, o);
+      // The bound of binned trees: 48 levels by cost, then one a bit of an index, and 15 at the
+      // bottom (cl/bins.h: TOP_SWEPT_DEPTH; cl/bottom.cl).
+      const std::string name = std::string(tracer::word_of(tree)) + ", " + std::to_string(n);
+      l.report_figure("depth of " + name, depth_of(on),
+                      tree == tracer::tree_kind::levels ? log2_up(n) : 63 + log2_up(n), "");
+      if (n > 4096) continue;
+      trace_and_check(
+          l, on, "other bits than brute force, " + name, l.at_most(2000),
+          [&](std::uint64_t i) { return inward_ray(l.seed, i); },
+          [&](std::uint64_t, const tracer::ray& r, const tracer::hit& h) {
+            return same_hit(h, serial.closest_brute(serial_ray(r)));
+          });
+    }
   }
 }
 
