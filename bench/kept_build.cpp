@@ -6,11 +6,20 @@ namespace facet::bench {
 
 using namespace tracer;
 
-kept_build::kept_build(const runtime::queue& q, const scene& s)
+namespace {
+
+tuning with_flags(tuning t, const std::string& flags) {
+  t.more_flags = flags;
+  return t;
+}
+
+}  // namespace
+
+kept_build::kept_build(const runtime::queue& q, const scene& s, const std::string& flags)
     : queue_(q),
       packed_(pack(s, false)),
       count_(packed_.world.triangle_count),
-      tuned_(tuning_for(q.get_device())),
+      tuned_(with_flags(tuning_for(q.get_device()), flags)),
       builder_(q, kernel_sources(), tuned_, {tuned_.leaf_sure, tuned_.leaf_size}),
       gather_(q, kernel_sources(), tuned_),
       corners_(packed_.corners.data(), packed_.corners.size()),

@@ -14,7 +14,8 @@ namespace facet::bench {
 
 class kept_build {
  public:
-  kept_build(const runtime::queue& q, const scene& s);
+  /// flags: added to those of the kernels' compiler.
+  kept_build(const runtime::queue& q, const scene& s, const std::string& flags);
 
   /// Builds the tree and puts the triangles into its order: until they are ready to be traced, by
   /// the host's clock, in seconds.

@@ -23,8 +23,7 @@ __kernel __attribute__((reqd_work_group_size(32, 1, 1))) void build_bottoms(
   __local float* box = (__local float*)pool;
   const uint primitive = order[is_there ? first + place : 0u];
   put_sweep_box(box, lane, bounds_at(primitives, primitive));
-  pool[SWEEP_TIE + lane] = lane;
-  pool[SWEEP_WEIGHT + lane] = 1u;
+  pool[SWEEP_WEIGHT + lane] = 0u;
   const Swept t = sweep_tree(lane, is_there ? begin : lane, is_there ? begin + count : lane, 0u, pool);
 
   barrier(CLK_LOCAL_MEM_FENCE);

@@ -5,7 +5,11 @@
 // In that tree neighbours part at the highest bit that differs, of the code and then of the place, so
 // that equal codes have a tree, too.
 #ifndef MOST
-#define MOST 32
+#define MOST 16
+#endif
+// Places of a work-item that marks them; a multiple of 32 / its group.
+#ifndef EACH
+#define EACH 32u
 #endif
 
 // How many leading bits place i has in common with place i + 1, and 1: larger where they part later; 0
@@ -35,29 +39,25 @@ static inline bool begins_subtree(__local const uchar* common) {
   }
 }
 
-// Bits of starts[tile * TILE / 32 ..] say which of the tile's places begin one, counts[tile] how many. A
-// group takes a tile of 32 places a work-item; common: TILE + 2 * MOST bytes, bits: a word an item.
+// Bits of marks[] say which places begin one, counts[tile] how many of the tile's. A group takes a tile of
+// EACH places a work-item; common: tile + 2 * MOST bytes, bits: tile / 32 words.
 __kernel void mark_subtrees(__global const uint* codes, __global uint* marks, __global uint* counts, uint count,
                             __local uchar* common, __local uint* bits) {
   const uint lid = (uint)get_local_id(0), size = (uint)get_local_size(0), at = (uint)get_group_id(0);
-  const uint tile = 32u * size, first = at * tile;
+  const uint tile = EACH * size, words = tile / 32u, first = at * tile;
   // common[k] is of place first + k - MOST.
   for (uint k = lid; k < tile + 2u * MOST; k += size)
     common[k] = (uchar)common_bits(codes, count, first + k - MOST);
-  bits[lid] = 0u;
+  for (uint k = lid; k < words; k += size) bits[k] = 0u;
   barrier(CLK_LOCAL_MEM_FENCE);
   for (uint k = lid; k < tile; k += size)
     if (first + k < count && begins_subtree(common + MOST + k - 1u)) atomic_or(&bits[k / 32u], 1u << k % 32u);
   barrier(CLK_LOCAL_MEM_FENCE);
-  const uint own = bits[lid];
-  marks[at * size + lid] = own;
-  barrier(CLK_LOCAL_MEM_FENCE);
-  bits[lid] = popcount(own);
-  for (uint step = size / 2u; step > 0u; step /= 2u) {
-    barrier(CLK_LOCAL_MEM_FENCE);
-    if (lid < step) bits[lid] += bits[lid + step];
-  }
-  if (lid == 0u) counts[at] = bits[0];
+  for (uint k = lid; k < words; k += size) marks[at * words + k] = bits[k];
+  if (lid != 0u) return;
+  uint sum = 0u;
+  for (uint k = 0u; k < words; ++k) sum += popcount(bits[k]);
+  counts[at] = sum;
 }
 
 // The sum of what the work-items before this one give; sums: a word an item.
@@ -90,7 +90,7 @@ __kernel void scan_tiles(__global uint* counts, __global uint* total, uint tiles
   if (lid == size - 1u) total[0] = before;
 }
 
-// starts[k]: where subtree k begins; starts[k + 1]: where it ends.
+// starts[k]: where subtree k begins; starts[k + 1]: where it ends. A group takes a tile's words.
 __kernel void list_subtrees(__global const uint* marks, __global const uint* counts, __global const uint* total,
                             __global uint* starts, uint count, __local uint* sums) {
   const uint lid = (uint)get_local_id(0), size = (uint)get_local_size(0), at = (uint)get_group_id(0);

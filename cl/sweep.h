@@ -5,9 +5,9 @@
 // beyond its own go left: of three axes. Boxes of one node are neighbours; a split puts those that go left
 // before the others, each side in its old order.
 //
-// The tree depends on the boxes and their ties alone: of splits that cost the same the one with the
-// lowest axis comes first, then the one with the fewest boxes on the left. cl/serial_tree.cl gets the
-// same tree.
+// The tree depends on the boxes and their order alone: of equal centres the box that came first is the
+// lower; of splits that cost the same the one with the lowest axis comes first, then the one with the
+// fewest boxes on the left. cl/serial_tree.cl gets the same tree.
 #ifndef FACET_SWEEP_H
 #define FACET_SWEEP_H
 
@@ -26,13 +26,12 @@
 
 // Words of local memory, in the order in which they stand.
 #define SWEEP_BOX 0u        // [6][32] floats
-#define SWEEP_TIE 192u      // which of two boxes with one centre is the lower
-#define SWEEP_WEIGHT 224u   // what a box counts in the heuristic
-#define SWEEP_COST 256u     // the best split that a place has found: its cost, ...
-#define SWEEP_KEY 288u      // ... axis and boxes on the left
-#define SWEEP_MASK 320u     // places that ..., one word a purpose
-#define SWEEP_NODES 324u    // [31][16]: finished nodes
-#define SWEEP_WORDS 820u
+#define SWEEP_WEIGHT 192u   // what a box counts in the heuristic, a float; without it, 1
+#define SWEEP_COST 224u     // the best split that a place has found: its cost, ...
+#define SWEEP_KEY 256u      // ... axis and boxes on the left
+#define SWEEP_MASK 288u     // places that ..., one word a purpose
+#define SWEEP_NODES 292u    // [31][16]: finished nodes
+#define SWEEP_WORDS 788u
 
 #define NODE_CHILD 12u  // words of a Node before its children
 #define NO_LINK 0xffffffffu
@@ -55,13 +54,28 @@ static inline void put_child_bounds(__local uint* node, uint side, Bounds b) {
   node[8u + side] = as_uint(b.lo.z), node[10u + side] = as_uint(b.hi.z);
 }
 
+#ifdef FACET_SWEEP_WEIGHTS
+#define SWEEP_WEIGHT_OF(pool, i) as_float((pool)[SWEEP_WEIGHT + (i)])
+#else
+#define SWEEP_WEIGHT_OF(pool, i) 1.0f
+#endif
+
+// The two sides of a split.
 typedef struct {
   Bounds left, right;
   float left_weight, right_weight;
   uint left_count;
-} Sides2;
+} TwoSides;
 
-static inline void take_side(Sides2* s, bool is_left, Bounds b, float weight) {
+static inline TwoSides no_sides(void) {
+  TwoSides s;
+  s.left = s.right = no_bounds();
+  s.left_weight = s.right_weight = 0.0f;
+  s.left_count = 0u;
+  return s;
+}
+
+static inline void take_side(TwoSides* s, bool is_left, Bounds b, float weight) {
   if (is_left) {
     s->left = joined(s->left, b);
     s->left_weight += weight;
@@ -72,59 +86,58 @@ static inline void take_side(Sides2* s, bool is_left, Bounds b, float weight) {
   }
 }
 
-static inline Sides2 no_sides(void) {
-  Sides2 s;
-  s.left = s.right = no_bounds();
-  s.left_weight = s.right_weight = 0.0f;
-  s.left_count = 0u;
-  return s;
-}
-
 typedef struct {
   float cost;
   uint key;  // axis, and below it how many boxes are on the left
-  Sides2 sides;
 } Split;
 
-static inline void better_split(Split* best, uint axis, Sides2 sides) {
-  const float cost = split_cost(sides.left, sides.left_weight, sides.right, sides.right_weight);
-  const uint key = axis << 8 | sides.left_count;
-  if (sides.left_count == 0u || cost > best->cost || (cost == best->cost && key > best->key)) return;
+static inline void better_split(Split* best, uint axis, const TwoSides* sides) {
+  const float cost = split_cost(sides->left, sides->left_weight, sides->right, sides->right_weight);
+  const uint key = axis << 8 | sides->left_count;
+  if (sides->left_count == 0u || cost > best->cost || (cost == best->cost && key > best->key)) return;
   best->cost = cost;
   best->key = key;
-  best->sides = sides;
 }
 
-// The best split of places begin .. end - 1 that parts them before those that are not below place `own`.
+// Whether of two centres along an axis place i's is below place `own`'s.
+static inline bool is_below(float at_i, uint i, float at_own, uint own) {
+  return at_i < at_own || (at_i == at_own && i < own);
+}
+
+// The best split of places begin .. end - 1 into those that are below place `own` and those that are not.
 static inline Split best_split_at(__local const uint* pool, uint begin, uint end, uint own) {
   __local const float* box = (__local const float*)pool;
   const float3 here = centre2(sweep_box(box, own));
-  const uint tie = pool[SWEEP_TIE + own];
-  Sides2 x = no_sides(), y = no_sides(), z = no_sides();
+  TwoSides x = no_sides(), y = no_sides(), z = no_sides();
   for (uint i = begin; i < end; ++i) {
     const Bounds b = sweep_box(box, i);
     const float3 c = centre2(b);
-    const float weight = (float)pool[SWEEP_WEIGHT + i];
-    const bool is_lower = pool[SWEEP_TIE + i] < tie;
-    take_side(&x, c.x < here.x || (c.x == here.x && is_lower), b, weight);
-    take_side(&y, c.y < here.y || (c.y == here.y && is_lower), b, weight);
-    take_side(&z, c.z < here.z || (c.z == here.z && is_lower), b, weight);
+    const float weight = SWEEP_WEIGHT_OF(pool, i);
+    take_side(&x, is_below(c.x, i, here.x, own), b, weight);
+    take_side(&y, is_below(c.y, i, here.y, own), b, weight);
+    take_side(&z, is_below(c.z, i, here.z, own), b, weight);
   }
   Split best;
   best.cost = INFINITY;
   best.key = 0xffffffffu;
-  best.sides = x;
-  better_split(&best, 0u, x);
-  better_split(&best, 1u, y);
-  better_split(&best, 2u, z);
+  better_split(&best, 0u, &x);
+  better_split(&best, 1u, &y);
+  better_split(&best, 2u, &z);
   return best;
 }
 
-static inline bool is_below(__local const uint* pool, uint a, uint b, uint axis) {
+static inline float axis_centre2(__local const float* box, uint i, uint axis) {
+  return box[axis * 32u + i] + box[(axis + 3u) * 32u + i];
+}
+
+// The sides of the split below place `at` along an axis.
+static inline TwoSides sides_at(__local const uint* pool, uint begin, uint end, uint at, uint axis) {
   __local const float* box = (__local const float*)pool;
-  const float ca = box[axis * 32u + a] + box[(axis + 3u) * 32u + a],
-              cb = box[axis * 32u + b] + box[(axis + 3u) * 32u + b];
-  return ca < cb || (ca == cb && pool[SWEEP_TIE + a] < pool[SWEEP_TIE + b]);
+  TwoSides s = no_sides();
+  const float here = axis_centre2(box, at, axis);
+  for (uint i = begin; i < end; ++i)
+    take_side(&s, is_below(axis_centre2(box, i, axis), i, here, at), sweep_box(box, i), 0.0f);
+  return s;
 }
 
 // What a place knows of the tree once it is finished.
@@ -163,19 +176,19 @@ static inline Swept sweep_tree(uint lane, uint begin, uint end, uint base, __loc
     barrier(CLK_LOCAL_MEM_FENCE);
 
     uint winner = begin;
-    if (is_open) {
+    if (is_open)
       for (uint i = begin + 1u; i < end; ++i) {
         const float a = as_float(pool[SWEEP_COST + i]), b = as_float(pool[SWEEP_COST + winner]);
         if (a < b || (a == b && pool[SWEEP_KEY + i] < pool[SWEEP_KEY + winner])) winner = i;
       }
-      if (end - begin <= LEAF_MOST) {
-        Bounds all = sweep_box(box, begin);
-        for (uint i = begin + 1u; i < end; ++i) all = joined(all, sweep_box(box, i));
-        is_open = half_area(all) * (float)(end - begin - 1u) > as_float(pool[SWEEP_COST + winner]);
-      }
-    }
-    const uint key = is_open ? pool[SWEEP_KEY + winner] : 0u;
-    const bool goes_left = is_open && is_below(pool, lane, winner, key >> 8);
+    const uint axis = is_open ? pool[SWEEP_KEY + winner] >> 8 : 0u;
+    TwoSides sides = no_sides();
+    if (is_open) sides = sides_at(pool, begin, end, winner, axis);
+    if (is_open && end - begin <= LEAF_MOST)
+      is_open = half_area(joined(sides.left, sides.right)) * (float)(end - begin - 1u) >
+                as_float(pool[SWEEP_COST + winner]);
+    const bool goes_left = is_open && is_below(axis_centre2(box, lane, axis), lane,
+                                               axis_centre2(box, winner, axis), winner);
     if (is_open && lane == begin) atomic_or(&pool[SWEEP_MASK], 1u << lane);
     if (goes_left) atomic_or(&pool[SWEEP_MASK + 1u], 1u << lane);
     barrier(CLK_LOCAL_MEM_FENCE);
@@ -184,17 +197,17 @@ static inline Swept sweep_tree(uint lane, uint begin, uint end, uint base, __loc
     if (split == 0u) break;
     uint to = lane;
     const Bounds moved = sweep_box(box, lane);
-    const uint tie = pool[SWEEP_TIE + lane], weight = pool[SWEEP_WEIGHT + lane];
+    const uint weight = pool[SWEEP_WEIGHT + lane];
     if (is_open) {
       const uint node = t.nodes + popcount(split & ((1u << begin) - 1u));
-      if (lane == winner) {
-        put_child_bounds(pool + SWEEP_NODES + 16u * node, 0u, own.sides.left);
-        put_child_bounds(pool + SWEEP_NODES + 16u * node, 1u, own.sides.right);
+      if (lane == begin) {
+        put_child_bounds(pool + SWEEP_NODES + 16u * node, 0u, sides.left);
+        put_child_bounds(pool + SWEEP_NODES + 16u * node, 1u, sides.right);
       }
       if (t.link == NO_LINK) t.root = node;
       else if (lane == begin)
         pool[SWEEP_NODES + 16u * (t.link >> 1) + NODE_CHILD + (t.link & 1u)] = base + node;
-      const uint left_count = key & 255u, before = below & ~((1u << begin) - 1u);
+      const uint left_count = sides.left_count, before = below & ~((1u << begin) - 1u);
       to = goes_left ? begin + popcount(lefts & before) : begin + left_count + popcount(~lefts & before);
       const bool is_right = lane >= begin + left_count;
       if (is_right) begin += left_count;
@@ -206,7 +219,6 @@ static inline Swept sweep_tree(uint lane, uint begin, uint end, uint base, __loc
     pool[SWEEP_COST + to] = t.moved_from;
     barrier(CLK_LOCAL_MEM_FENCE);
     put_sweep_box(box, to, moved);
-    pool[SWEEP_TIE + to] = tie;
     pool[SWEEP_WEIGHT + to] = weight;
     t.moved_from = pool[SWEEP_COST + lane];
   }

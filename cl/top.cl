@@ -4,12 +4,17 @@
 // up to SWEEP_MOST items are left to finish_ranges.
 //
 // The order of a range's items varies from run to run; bounds, sums and splits do not depend on it.
+#define FACET_SWEEP_WEIGHTS
 #define LEAF_SURE 1u
 #define LEAF_MOST 1u
 #include "bin_split.h"
 #include "sweep.h"
 
 #define TILE_ITEMS 1024u
+// A group that splits a range alone.
+#ifndef SPLIT_GROUP
+#define SPLIT_GROUP 64u
+#endif
 
 // What a level has, in counters + 2 * level.
 #define LEVEL_RANGES 0u
@@ -199,7 +204,7 @@ __kernel void list_ranges(__global const Item* moved, __global const TopRange* r
 }
 
 // A group splits a range, however many items it has.
-__kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void split_ranges(
+__kernel __attribute__((reqd_work_group_size(SPLIT_GROUP, 1, 1))) void split_ranges(
     __global const Item* items, __global Item* moved, __global const TopRange* ranges,
     __global TopRange* next_ranges, __global TopRange* small, __global Node* nodes,
     __global const uint* refs, __global uint* counters, uint level, __local uint* pool) {
@@ -207,12 +212,12 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void split_ranges(
   const bool works = at < counters[2u * level + LEVEL_RANGES];
   const TopRange r = ranges[works ? at : 0u];
   const uint begin = works ? r.begin : 0u, end = works ? r.end : 0u;
-  for (uint i = lid; i < ALL_BIN_WORDS; i += GROUP) pool[i] = empty_bin_word(i);
+  for (uint i = lid; i < ALL_BIN_WORDS; i += SPLIT_GROUP) pool[i] = empty_bin_word(i);
   barrier(CLK_LOCAL_MEM_FENCE);
   // 32 neighbours in the group are far apart in the range, so that few meet at one bin.
   const uint stride = (end - begin + 31u) / 32u, first = begin + lid % 32u * stride;
   const uint last = min(first + stride, end);
-  for (uint i = first + lid / 32u; i < last; i += GROUP / 32u) fill_bins(pool, &items[i], &r);
+  for (uint i = first + lid / 32u; i < last; i += SPLIT_GROUP / 32u) fill_bins(pool, &items[i], &r);
   barrier(CLK_LOCAL_MEM_FENCE);
   find_costs(pool, &r);
   barrier(CLK_LOCAL_MEM_FENCE);
@@ -220,7 +225,7 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void split_ranges(
   barrier(CLK_LOCAL_MEM_FENCE);
   __local uint* sides = pool + SPLIT_SIDES;
   const bool is_by_index = pool[SPLIT_CHOICE] == SPLIT_BY_INDEX;
-  for (uint i = first + lid / 32u; i < last; i += GROUP / 32u) {
+  for (uint i = first + lid / 32u; i < last; i += SPLIT_GROUP / 32u) {
     const uint side = side_of(pool, &items[i], &r), place = atomic_inc(&sides[SIDES_COUNT + side]);
     if (is_by_index) grow_side(sides, &items[i], side);
     moved[side == 0u ? begin + place : end - 1u - place] = items[i];
@@ -247,18 +252,33 @@ __kernel __attribute__((reqd_work_group_size(32, 1, 1))) void finish_ranges(
   const uint lane = (uint)get_local_id(0);
   const TopRange r = small[get_group_id(0)];
   const uint count = r.end - r.begin;
-  __global const Item* item = (r.buffer == 0u ? even : odd) + r.begin + min(lane, count - 1u);
-  put_sweep_box((__local float*)pool, lane, item_bounds(item));
-  pool[SWEEP_TIE + lane] = item->index;
-  pool[SWEEP_WEIGHT + lane] = FACET_SIZE_OF(item->size);
-  const uint height = FACET_HEIGHT_OF(item->size);
+  __global const Item* items = (r.buffer == 0u ? even : odd) + r.begin;
+  // In the order of their indices.
+  pool[SWEEP_KEY + lane] = items[min(lane, count - 1u)].index;
+  barrier(CLK_LOCAL_MEM_FENCE);
+  uint place = lane;
+  if (lane < count) {
+    place = 0u;
+    for (uint i = 0u; i < count; ++i) place += pool[SWEEP_KEY + i] < pool[SWEEP_KEY + lane];
+  }
+  __global const Item* item = items + min(lane, count - 1u);
+  put_sweep_box((__local float*)pool, place, item_bounds(item));
+  pool[SWEEP_WEIGHT + place] = as_uint((float)FACET_SIZE_OF(item->size));
+  pool[SWEEP_COST + place] = item->index;
+  barrier(CLK_LOCAL_MEM_FENCE);
+  const uint index = pool[SWEEP_COST + lane];
+  barrier(CLK_LOCAL_MEM_FENCE);
+  pool[SWEEP_COST + place] = FACET_HEIGHT_OF(item->size);
+  barrier(CLK_LOCAL_MEM_FENCE);
+  const uint height = pool[SWEEP_COST + lane];
   const Swept t = sweep_tree(lane, lane < count ? 0u : lane, lane < count ? count : lane, r.node, pool);
   barrier(CLK_LOCAL_MEM_FENCE);
   pool[SWEEP_WEIGHT + lane] = height;
+  pool[SWEEP_KEY + lane] = index;
   if (lane == 0u) pool[SWEEP_MASK] = 0u;
   barrier(CLK_LOCAL_MEM_FENCE);
   if (lane < count) {
-    pool[SWEEP_NODES + 16u * (t.link >> 1) + NODE_CHILD + (t.link & 1u)] = refs[pool[SWEEP_TIE + lane]];
+    pool[SWEEP_NODES + 16u * (t.link >> 1) + NODE_CHILD + (t.link & 1u)] = refs[pool[SWEEP_KEY + t.moved_from]];
     atomic_max(&pool[SWEEP_MASK], r.depth + t.depth + pool[SWEEP_WEIGHT + t.moved_from]);
   }
   barrier(CLK_LOCAL_MEM_FENCE);

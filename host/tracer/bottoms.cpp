@@ -8,7 +8,7 @@ namespace facet::tracer {
 namespace {
 
 constexpr std::uint32_t lanes = 32;
-constexpr std::uint32_t pool_words = 820 + 32;  // cl/sweep.h: SWEEP_WORDS; cl/bottom.cl
+constexpr std::uint32_t pool_words = 788 + 32;  // cl/sweep.h: SWEEP_WORDS; cl/bottom.cl
 
 template <class Primitive>
 std::string options_of(const tuning& t, leaf_rule leaves, std::uint32_t most) {

@@ -26,7 +26,7 @@ class subtrees {
 
  private:
   runtime::queue queue_;
-  std::uint32_t group_, scan_group_, most_;
+  std::uint32_t group_, each_, scan_group_, most_;
   runtime::buffer<std::uint32_t> marks_{1}, counts_{1}, starts_{1}, total_{1};
   runtime::program program_;
   runtime::kernel mark_, scan_, list_;

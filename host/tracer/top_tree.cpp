@@ -12,7 +12,7 @@ namespace {
 // As in cl/top.cl, cl/bin_split.h and cl/sweep.h.
 constexpr std::uint32_t group = 256, tile_items = 1024, totals = 512, level_words = 2;
 constexpr std::uint32_t bin_words = 3 * 16 * 8, split_words = bin_words + 48 + 4 + 16;
-constexpr std::uint32_t swept = 32, sweep_words = 820;
+constexpr std::uint32_t swept = 32, sweep_words = 788;
 constexpr std::uint32_t large = 4096;  ///< items that one group does not split alone
 
 /// Levels at which ranges may be large, if splits are not too uneven; it costs time alone if some
@@ -44,7 +44,9 @@ std::array<runtime::buffer<T>, 2> two() {
 top_tree::top_tree(const runtime::queue& q, const runtime::source_tree& kernels, const tuning& t)
     : queue_(q),
       is_serial_(t.serial_trees),
-      program_(compiled(q, kernels, t.serial_trees ? "serial_tree.cl" : "top.cl", t.flags())),
+      split_group_(t.split_group),
+      program_(compiled(q, kernels, t.serial_trees ? "serial_tree.cl" : "top.cl",
+                        t.flags() + " -DSPLIT_GROUP=" + std::to_string(t.split_group) + "u")),
       ranges_(two<TopRange>()),
       sides_(two<TopSides>()),
       tiles_(two<std::uint32_t>()),
@@ -201,7 +203,7 @@ void top_tree::split_level(tree_parts& parts, std::uint32_t count, std::uint32_t
                      const runtime::local_accessor<std::uint32_t> pool(split_words, h);
                      h.set_args(items, moved, ranges, next_ranges, small, nodes, refs, counters,
                                 level, pool);
-                     h.parallel_for(in_groups(most_ranges(count, level), group), *split_);
+                     h.parallel_for(in_groups(most_ranges(count, level), split_group_), *split_);
                    })});
 }
 
