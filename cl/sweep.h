@@ -1,8 +1,9 @@
-// A tree over up to 32 boxes by the surface area heuristic (MacDonald and Booth 1990), all splits of all
-// axes tried, by a group of 32 work-items that splits a whole level at once.
+// A tree over up to 32 boxes by the surface area heuristic (MacDonald and Booth 1990), by a group of 32
+// work-items that splits a whole level at once. All splits between boxes are tried, along the longest
+// side of the node's box or, by FACET_SWEEP_AXES, along all axes.
 //
 // Each work-item holds the place of one box, and tries the splits where the boxes whose centres are not
-// beyond its own go left: of three axes. Boxes of one node are neighbours; a split puts those that go left
+// below its own go left. Boxes of one node are neighbours; a split puts those that go left
 // before the others, each side in its old order.
 //
 // The tree depends on the boxes and their order alone: of equal centres the box that came first is the
@@ -60,6 +61,13 @@ static inline void put_child_bounds(__local uint* node, uint side, Bounds b) {
 #define SWEEP_WEIGHT_OF(pool, i) 1.0f
 #endif
 
+static inline Bounds child_bounds(__local const uint* node, uint side) {
+  Bounds b;
+  b.lo = (float3)(as_float(node[side]), as_float(node[4u + side]), as_float(node[8u + side]));
+  b.hi = (float3)(as_float(node[2u + side]), as_float(node[6u + side]), as_float(node[10u + side]));
+  return b;
+}
+
 // The two sides of a split.
 typedef struct {
   Bounds left, right;
@@ -86,57 +94,35 @@ static inline void take_side(TwoSides* s, bool is_left, Bounds b, float weight) 
   }
 }
 
-typedef struct {
-  float cost;
-  uint key;  // axis, and below it how many boxes are on the left
-} Split;
-
-static inline void better_split(Split* best, uint axis, const TwoSides* sides) {
-  const float cost = split_cost(sides->left, sides->left_weight, sides->right, sides->right_weight);
-  const uint key = axis << 8 | sides->left_count;
-  if (sides->left_count == 0u || cost > best->cost || (cost == best->cost && key > best->key)) return;
-  best->cost = cost;
-  best->key = key;
-}
-
 // Whether of two centres along an axis place i's is below place `own`'s.
 static inline bool is_below(float at_i, uint i, float at_own, uint own) {
   return at_i < at_own || (at_i == at_own && i < own);
-}
-
-// The best split of places begin .. end - 1 into those that are below place `own` and those that are not.
-static inline Split best_split_at(__local const uint* pool, uint begin, uint end, uint own) {
-  __local const float* box = (__local const float*)pool;
-  const float3 here = centre2(sweep_box(box, own));
-  TwoSides x = no_sides(), y = no_sides(), z = no_sides();
-  for (uint i = begin; i < end; ++i) {
-    const Bounds b = sweep_box(box, i);
-    const float3 c = centre2(b);
-    const float weight = SWEEP_WEIGHT_OF(pool, i);
-    take_side(&x, is_below(c.x, i, here.x, own), b, weight);
-    take_side(&y, is_below(c.y, i, here.y, own), b, weight);
-    take_side(&z, is_below(c.z, i, here.z, own), b, weight);
-  }
-  Split best;
-  best.cost = INFINITY;
-  best.key = 0xffffffffu;
-  better_split(&best, 0u, &x);
-  better_split(&best, 1u, &y);
-  better_split(&best, 2u, &z);
-  return best;
 }
 
 static inline float axis_centre2(__local const float* box, uint i, uint axis) {
   return box[axis * 32u + i] + box[(axis + 3u) * 32u + i];
 }
 
-// The sides of the split below place `at` along an axis.
-static inline TwoSides sides_at(__local const uint* pool, uint begin, uint end, uint at, uint axis) {
+// The sides of the split of places begin .. end - 1 below place `own` along an axis.
+static inline TwoSides sides_below(__local const uint* pool, uint begin, uint end, uint own, uint axis) {
   __local const float* box = (__local const float*)pool;
   TwoSides s = no_sides();
-  const float here = axis_centre2(box, at, axis);
+  const float here = axis_centre2(box, own, axis);
   for (uint i = begin; i < end; ++i)
-    take_side(&s, is_below(axis_centre2(box, i, axis), i, here, at), sweep_box(box, i), 0.0f);
+    take_side(&s, is_below(axis_centre2(box, i, axis), i, here, own), sweep_box(box, i), SWEEP_WEIGHT_OF(pool, i));
+  return s;
+}
+
+// Tries that split: tells its cost and its key, the axis and below it how many boxes are on the left.
+static inline TwoSides try_split(__local uint* pool, uint begin, uint end, uint own, uint axis, float* cost,
+                                 uint* key) {
+  const TwoSides s = sides_below(pool, begin, end, own, axis);
+  const float its_cost = split_cost(s.left, s.left_weight, s.right, s.right_weight);
+  const uint its_key = axis << 8 | s.left_count;
+  if (s.left_count != 0u && (its_cost < *cost || (its_cost == *cost && its_key < *key))) {
+    *cost = its_cost;
+    *key = its_key;
+  }
   return s;
 }
 
@@ -163,30 +149,39 @@ static inline Swept sweep_tree(uint lane, uint begin, uint end, uint base, __loc
   t.depth = 0u;
   t.moved_from = lane;
   bool is_open = begin < end;
+  // Of the node that the place is in.
+  Bounds all = no_bounds();
+  barrier(CLK_LOCAL_MEM_FENCE);
+  for (uint i = begin; i < end; ++i) all = joined(all, sweep_box(box, i));
   for (uint level = 0u; level < SWEEP_MOST; ++level) {
     barrier(CLK_LOCAL_MEM_FENCE);
     if (lane < 2u) pool[SWEEP_MASK + lane] = 0u;
     is_open = is_open && end - begin > LEAF_SURE;
-    Split own;
-    own.cost = INFINITY;
-    own.key = 0xffffffffu;
-    if (is_open) own = best_split_at(pool, begin, end, lane);
-    pool[SWEEP_COST + lane] = as_uint(own.cost);
-    pool[SWEEP_KEY + lane] = own.key;
+    float cost = INFINITY;
+    uint key = 0xffffffffu;
+    TwoSides sides = no_sides();
+    if (is_open) {
+#ifdef FACET_SWEEP_AXES
+      for (uint a = 0u; a < 3u; ++a) try_split(pool, begin, end, lane, a, &cost, &key);
+#else
+      sides = try_split(pool, begin, end, lane, longest_axis(all), &cost, &key);
+#endif
+    }
+    pool[SWEEP_COST + lane] = as_uint(cost);
+    pool[SWEEP_KEY + lane] = key;
     barrier(CLK_LOCAL_MEM_FENCE);
 
     uint winner = begin;
-    if (is_open)
+    if (is_open) {
       for (uint i = begin + 1u; i < end; ++i) {
         const float a = as_float(pool[SWEEP_COST + i]), b = as_float(pool[SWEEP_COST + winner]);
         if (a < b || (a == b && pool[SWEEP_KEY + i] < pool[SWEEP_KEY + winner])) winner = i;
       }
-    const uint axis = is_open ? pool[SWEEP_KEY + winner] >> 8 : 0u;
-    TwoSides sides = no_sides();
-    if (is_open) sides = sides_at(pool, begin, end, winner, axis);
-    if (is_open && end - begin <= LEAF_MOST)
-      is_open = half_area(joined(sides.left, sides.right)) * (float)(end - begin - 1u) >
-                as_float(pool[SWEEP_COST + winner]);
+      key = pool[SWEEP_KEY + winner];
+      if (end - begin <= LEAF_MOST)
+        is_open = half_area(all) * (float)(end - begin - 1u) > as_float(pool[SWEEP_COST + winner]);
+    }
+    const uint axis = is_open ? key >> 8 : 0u, left_count = key & 255u;
     const bool goes_left = is_open && is_below(axis_centre2(box, lane, axis), lane,
                                                axis_centre2(box, winner, axis), winner);
     if (is_open && lane == begin) atomic_or(&pool[SWEEP_MASK], 1u << lane);
@@ -200,14 +195,17 @@ static inline Swept sweep_tree(uint lane, uint begin, uint end, uint base, __loc
     const uint weight = pool[SWEEP_WEIGHT + lane];
     if (is_open) {
       const uint node = t.nodes + popcount(split & ((1u << begin) - 1u));
-      if (lane == begin) {
+      if (lane == winner) {
+#ifdef FACET_SWEEP_AXES
+        sides = sides_below(pool, begin, end, lane, axis);
+#endif
         put_child_bounds(pool + SWEEP_NODES + 16u * node, 0u, sides.left);
         put_child_bounds(pool + SWEEP_NODES + 16u * node, 1u, sides.right);
       }
       if (t.link == NO_LINK) t.root = node;
       else if (lane == begin)
         pool[SWEEP_NODES + 16u * (t.link >> 1) + NODE_CHILD + (t.link & 1u)] = base + node;
-      const uint left_count = sides.left_count, before = below & ~((1u << begin) - 1u);
+      const uint before = below & ~((1u << begin) - 1u);
       to = goes_left ? begin + popcount(lefts & before) : begin + left_count + popcount(~lefts & before);
       const bool is_right = lane >= begin + left_count;
       if (is_right) begin += left_count;
@@ -221,6 +219,7 @@ static inline Swept sweep_tree(uint lane, uint begin, uint end, uint base, __loc
     put_sweep_box(box, to, moved);
     pool[SWEEP_WEIGHT + to] = weight;
     t.moved_from = pool[SWEEP_COST + lane];
+    if (is_open) all = child_bounds(pool + SWEEP_NODES + 16u * (t.link >> 1), t.link & 1u);
   }
   t.leaf_begin = begin;
   t.leaf_count = end - begin;

@@ -8,7 +8,7 @@
 namespace facet::tracer {
 namespace {
 
-constexpr std::uint32_t subtree_most = 16;
+constexpr std::uint32_t subtree_most = 32;
 
 /// Nodes that trees are expected to have at most: 0.62 a primitive was never reached where leaves
 /// hold two or more (bunny 0.55, terrain 0.53, soup 0.60). A tree that has more is built again.
