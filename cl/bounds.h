@@ -30,12 +30,6 @@ static inline float half_area(Bounds b) {
   return (e.x * e.y + e.y * e.z) + e.z * e.x;
 }
 
-static inline uint longest_axis(Bounds b) {
-  const float3 e = b.hi - b.lo;
-  const uint axis = e.y > e.x ? 1u : 0u;
-  return e.z > (axis == 0u ? e.x : e.y) ? 2u : axis;
-}
-
 // What splitting costs. A sum that is not a number or overflows costs more than all others.
 static inline float split_cost(Bounds left, float left_weight, Bounds right, float right_weight) {
   const float cost = half_area(left) * left_weight + half_area(right) * right_weight;

@@ -20,12 +20,6 @@ static inline float packed_area(Packed b) {
   const float4 e = -b.hi - b.lo;
   return (e.x * e.y + e.y * e.z) + e.z * e.x;
 }
-static inline uint packed_longest_axis(Packed b) {
-  Bounds all;
-  all.lo = b.s012;
-  all.hi = -b.s456;
-  return longest_axis(all);
-}
 static inline float packed_cost(Packed left, float left_weight, Packed right, float right_weight) {
   const float cost = packed_area(left) * left_weight + packed_area(right) * right_weight;
   return cost < INFINITY ? cost : INFINITY;
@@ -66,14 +60,14 @@ static inline void order_by_ties(const Entries* e, uint count, Orders* o) {
 }
 
 // Equal centres keep the order of ties.
-static inline void order_by_axis(const Entries* e, uint begin, uint end, uint axis, Orders* o) {
+static inline void order_by_axis(const Entries* e, uint count, uint axis, Orders* o) {
   const float* c = e->centre[axis];
   uchar* by = o->by[axis];
-  for (uint n = begin; n < end; ++n) {
+  for (uint n = 0u; n < count; ++n) {
     const uchar i = o->by[3][n];
     const float at = c[i];
     uint k = n;
-    for (; k > begin && c[by[k - 1u]] > at; --k) by[k] = by[k - 1u];
+    for (; k > 0u && c[by[k - 1u]] > at; --k) by[k] = by[k - 1u];
     by[k] = i;
   }
 }
@@ -84,15 +78,13 @@ typedef struct {
   Packed left_box, right_box;
 } SerialSplit;
 
-// Along the axes from `axis` to `last`.
-static inline SerialSplit best_serial_split(const Entries* e, const Orders* o, uint begin, uint end, uint axis,
-                                            uint last) {
+static inline SerialSplit best_serial_split(const Entries* e, const Orders* o, uint begin, uint end) {
   SerialSplit best;
   best.cost = INFINITY;
   best.axis = FACET_NONE;
   best.left = 1u;
   best.left_box = best.right_box = no_packed();
-  for (; axis <= last; ++axis) {
+  for (uint axis = 0u; axis < 3u; ++axis) {
     const uchar* by = o->by[axis];
     Packed right[32];
     float right_weight[32];
@@ -122,11 +114,10 @@ static inline SerialSplit best_serial_split(const Entries* e, const Orders* o, u
   return best;
 }
 
-// Parts the orders from `first` on as the one along an axis is parted.
-static inline void part_orders(Orders* o, uint begin, uint end, uint axis, uint left, uint first) {
+static inline void part_orders(Orders* o, uint begin, uint end, uint axis, uint left) {
   uint lefts = 0u;
   for (uint i = begin; i < begin + left; ++i) lefts |= 1u << o->by[axis][i];
-  for (uint k = first; k < 4u; ++k) {
+  for (uint k = 0u; k < 4u; ++k) {
     uchar kept[32];
     uint l = begin, r = 0u;
     for (uint i = begin; i < end; ++i) {
@@ -146,13 +137,11 @@ typedef struct {
   Packed box;
 } Segment;
 
-// The tree over entries 0 .. count - 1, by splits along the longest side of a node's box or along all
-// axes, its nodes numbered from `base` on; leaf i (in order) is leaves[i]: begin, end in orders.by[3], and its link and depth. Returns the nodes; *leaf_count.
-static inline uint serial_sweep(const Entries* e, uint count, bool is_one_axis, uint leaf_sure,
-                                uint leaf_most, uint base,
+// The tree over entries 0 .. count - 1, its nodes numbered from `base` on; leaf i (in order) is leaves[i]: begin, end in orders.by[3], and its link and depth. Returns the nodes; *leaf_count.
+static inline uint serial_sweep(const Entries* e, uint count, uint leaf_sure, uint leaf_most, uint base,
                                 Node* nodes, Orders* orders, Segment* leaves, uint* leaf_count) {
   order_by_ties(e, count, orders);
-  for (uint axis = 0u; axis < 3u && !is_one_axis; ++axis) order_by_axis(e, 0u, count, axis, orders);
+  for (uint axis = 0u; axis < 3u && count > leaf_sure; ++axis) order_by_axis(e, count, axis, orders);
   Segment stack[32];
   uint top = 0u, made = 0u, found = 0u;
   stack[top].box = e->box[0];
@@ -165,9 +154,7 @@ static inline uint serial_sweep(const Entries* e, uint count, bool is_one_axis, 
     bool is_leaf = size <= leaf_sure;
     SerialSplit split;
     if (!is_leaf) {
-      const uint axis = is_one_axis ? packed_longest_axis(s.box) : 0u;
-      if (is_one_axis) order_by_axis(e, s.begin, s.end, axis, orders);
-      split = best_serial_split(e, orders, s.begin, s.end, axis, is_one_axis ? axis : 2u);
+      split = best_serial_split(e, orders, s.begin, s.end);
       if (size <= leaf_most)
         is_leaf = !(packed_area(s.box) * (float)(size - 1u) > split.cost);
     }
@@ -183,7 +170,7 @@ static inline uint serial_sweep(const Entries* e, uint count, bool is_one_axis, 
     n.spare[0] = n.spare[1] = 0u;
     nodes[at] = n;
     if (s.link != FACET_NONE) nodes[s.link >> 1].child[s.link & 1u] = base + at;
-    part_orders(orders, s.begin, s.end, split.axis, split.left, is_one_axis ? 3u : 0u);
+    part_orders(orders, s.begin, s.end, split.axis, split.left);
     Segment c;
     c.depth = s.depth + 1u;
     c.begin = s.begin + split.left, c.end = s.end, c.link = 2u * at + 1u, c.box = split.right_box;
@@ -214,7 +201,7 @@ __kernel void build_bottoms(PRIMITIVES primitives, __global const uint* starts, 
     Orders orders;
     Segment leaves[32];
     uint leaf_count, height = 0u;
-    const uint made_count = serial_sweep(&e, count, true, LEAF_SURE, LEAF_MOST, 0u, made, &orders, leaves, &leaf_count);
+    const uint made_count = serial_sweep(&e, count, LEAF_SURE, LEAF_MOST, 0u, made, &orders, leaves, &leaf_count);
     // What does not fit is counted all the same: the host makes room and starts again.
     const uint base = made_count == 0u ? 0u : atomic_add((volatile __global uint*)counter, made_count);
     for (uint i = 0u; i < made_count; ++i)
@@ -333,7 +320,7 @@ static inline uint finish_range(__global const Item* items, const Waiting* w, __
   Orders orders;
   Segment leaves[32];
   uint leaf_count, deepest = 0u;
-  const uint made_count = serial_sweep(&e, count, false, 1u, 1u, w->node, made, &orders, leaves, &leaf_count);
+  const uint made_count = serial_sweep(&e, count, 1u, 1u, w->node, made, &orders, leaves, &leaf_count);
   for (uint i = 0u; i < leaf_count; ++i) {
     const uint at = orders.by[3][leaves[i].begin];
     made[leaves[i].link >> 1].child[leaves[i].link & 1u] = refs[e.tie[at]];

@@ -1,6 +1,5 @@
 // A tree over up to 32 boxes by the surface area heuristic (MacDonald and Booth 1990), by a group of 32
-// work-items that splits a whole level at once. All splits between boxes are tried, along the longest
-// side of the node's box or, by FACET_SWEEP_AXES, along all axes.
+// work-items that splits a whole level at once. All splits between boxes are tried, along all axes.
 //
 // Each work-item holds the place of one box, and tries the splits where the boxes whose centres are not
 // below its own go left. Boxes of one node are neighbours; a split puts those that go left
@@ -114,7 +113,7 @@ static inline TwoSides sides_below(__local const uint* pool, uint begin, uint en
 }
 
 // Tries that split: tells its cost and its key, the axis and below it how many boxes are on the left.
-static inline TwoSides try_split(__local uint* pool, uint begin, uint end, uint own, uint axis, float* cost,
+static inline void try_split(__local uint* pool, uint begin, uint end, uint own, uint axis, float* cost,
                                  uint* key) {
   const TwoSides s = sides_below(pool, begin, end, own, axis);
   const float its_cost = split_cost(s.left, s.left_weight, s.right, s.right_weight);
@@ -123,7 +122,6 @@ static inline TwoSides try_split(__local uint* pool, uint begin, uint end, uint 
     *cost = its_cost;
     *key = its_key;
   }
-  return s;
 }
 
 // What a place knows of the tree once it is finished.
@@ -159,13 +157,8 @@ static inline Swept sweep_tree(uint lane, uint begin, uint end, uint base, __loc
     is_open = is_open && end - begin > LEAF_SURE;
     float cost = INFINITY;
     uint key = 0xffffffffu;
-    TwoSides sides = no_sides();
     if (is_open) {
-#ifdef FACET_SWEEP_AXES
       for (uint a = 0u; a < 3u; ++a) try_split(pool, begin, end, lane, a, &cost, &key);
-#else
-      sides = try_split(pool, begin, end, lane, longest_axis(all), &cost, &key);
-#endif
     }
     pool[SWEEP_COST + lane] = as_uint(cost);
     pool[SWEEP_KEY + lane] = key;
@@ -196,9 +189,7 @@ static inline Swept sweep_tree(uint lane, uint begin, uint end, uint base, __loc
     if (is_open) {
       const uint node = t.nodes + popcount(split & ((1u << begin) - 1u));
       if (lane == winner) {
-#ifdef FACET_SWEEP_AXES
-        sides = sides_below(pool, begin, end, lane, axis);
-#endif
+        const TwoSides sides = sides_below(pool, begin, end, lane, axis);
         put_child_bounds(pool + SWEEP_NODES + 16u * node, 0u, sides.left);
         put_child_bounds(pool + SWEEP_NODES + 16u * node, 1u, sides.right);
       }

@@ -5,7 +5,6 @@
 //
 // The order of a range's items varies from run to run; bounds, sums and splits do not depend on it.
 #define FACET_SWEEP_WEIGHTS
-#define FACET_SWEEP_AXES
 #define LEAF_SURE 1u
 #define LEAF_MOST 1u
 #include "bin_split.h"

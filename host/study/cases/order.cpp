@@ -191,6 +191,33 @@ void duplicates(lab& l) {
   for (int c = 0; c < 99; ++c) copies.instances.push_back({});
   tracer::device_scene on = l.place(copies);
   trace_and_check(l, on, "not the lowest of 100 instances", l.at_most(100000), make, check);
+
+  // Where triangles lie says nothing of their numbers. Two units above them all distances are the
+  // same bits: each is the sum of the edge functions times two, over that sum.
+  mesh flat;
+  for (std::uint32_t c = 0; c < 300; ++c) {
+    draw d(l.seed + 1, c);
+    const vec3d at = d.in_cube();
+    const auto corner = [&] {
+      const vec3f p(at + d.in_cube() * 0.5);
+      return vec3f{p.x, p.y, 0.25f};
+    };
+    const vec3f a = corner(), b = corner();
+    add_loose(flat, a, b, corner());
+  }
+  const scene plane = scene_with(std::move(flat));
+  const reference::tracer<float> over_plane(plane);
+  tracer::device_scene in_plane = l.place(plane);
+  trace_and_check(
+      l, in_plane, "not the lowest in a plane", l.at_most(100000),
+      [&](std::uint64_t i) {
+        draw d(l.seed + 2, i);
+        const vec3f o(d.in_cube());
+        return make_ray({o.x, o.y, 2.25f}, {0, 0, -1});
+      },
+      [&](std::uint64_t, const tracer::ray& r, const tracer::hit& h) {
+        return same_hit(h, over_plane.closest_brute(serial_ray(r)));
+      });
 }
 
 void every_way(lab& l) {
