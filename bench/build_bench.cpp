@@ -26,7 +26,7 @@ using json = nlohmann::ordered_json;
 struct settings {
   std::vector<std::string> meshes{"terrain:1000", "soup:1000000"};
   std::vector<std::string> trees{"levels", "binned"};
-  std::string device = "0", layout = "auto", flags, json;
+  std::string device = "0", layout = "auto", face = "auto", flags, json;
   unsigned repeat = 10, threads = std::thread::hardware_concurrency();
   bool no_peers = false, quality = false, kept = false, steps = false;
 };
@@ -180,7 +180,10 @@ std::vector<json> measure(const settings& o, const std::string& path, const runt
 /// last build by the device's.
 json kept_row(const settings& o, const std::string& path, const runtime::queue& queue) {
   const scene s = scene_of(load_workload(path));
-  kept_build k(queue, s, o.flags);
+  tracer::tuning t = tracer::tuning_for(queue.get_device());
+  t.more_flags = o.flags;
+  if (o.face != "auto") t.serial_trees = o.face == "serial";
+  kept_build k(queue, s, t);
   k.build();
   std::vector<double> seconds;
   for (unsigned i = 0; i < o.repeat; ++i) seconds.push_back(k.build());
@@ -263,6 +266,9 @@ void add_build_row(CLI::App& app) {
   row->add_flag("--no-peers", o->no_peers, "leave Embree out");
   row->add_flag("--quality", o->quality, "the trees' SAH costs, too (facet info --tree has more)");
   row->add_flag("--kept", o->kept, "builds into memory that is kept, from corners on the device");
+  row->add_option("--face", o->face, "with --kept: who builds a tree, a group or a work-item alone")
+      ->check(CLI::IsMember({"auto", "group", "serial"}))
+      ->capture_default_str();
   row->add_option("--flags", o->flags, "with --kept: for the kernels' compiler");
   row->add_flag("--steps", o->steps, "with --kept: each kernel's time");
   row->add_option("--json", o->json, "write the figures to this file, after each mesh");

@@ -24,7 +24,7 @@ using tracer::texel;
 
 struct arguments {
   std::vector<std::string> meshes{"terrain:1000", "soup:1000000"};
-  std::string device = "0", json;
+  std::string device = "0", flags, json;
   int repeat = 11;
 };
 
@@ -35,8 +35,9 @@ struct fold_times {
 };
 
 /// Into memory that the run before has used, but for the first.
-fold_times measure(runtime::queue& q, const mesh& m, int repeats) {
-  const tracer::tuning t = tracer::tuning_for(q.get_device());
+fold_times measure(runtime::queue& q, const mesh& m, int repeats, const std::string& flags) {
+  tracer::tuning t = tracer::tuning_for(q.get_device());
+  t.more_flags = flags;
   tracer::node_trees trees(q, tracer::kernel_sources(), t, tracer::tree_kind::binned,
                            {FACET_BLOCK, FACET_BLOCK});
   tracer::folder folder(q, tracer::kernel_sources(), t);
@@ -91,7 +92,7 @@ void run(const arguments& o) {
   for (const std::string& path : o.meshes) {
     const std::string name = path.substr(path.find_last_of('/') + 1);
     const mesh m = load_workload(path);
-    const fold_times t = measure(queue, m, o.repeat);
+    const fold_times t = measure(queue, m, o.repeat, o.flags);
     json row{{"mesh", name},
              {"triangles", m.triangle_count()},
              {"binary_nodes", t.binary_nodes},
@@ -126,6 +127,7 @@ void add_fold_row(CLI::App& app) {
   row->add_option("--repeat", o->repeat, "timed runs, after one to warm up")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
+  row->add_option("--flags", o->flags, "for the kernels' compiler");
   row->add_option("--json", o->json, "write the figures to this file");
   row->callback([o] { run(*o); });
 }

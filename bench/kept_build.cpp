@@ -6,20 +6,11 @@ namespace facet::bench {
 
 using namespace tracer;
 
-namespace {
-
-tuning with_flags(tuning t, const std::string& flags) {
-  t.more_flags = flags;
-  return t;
-}
-
-}  // namespace
-
-kept_build::kept_build(const runtime::queue& q, const scene& s, const std::string& flags)
+kept_build::kept_build(const runtime::queue& q, const scene& s, const tuning& t)
     : queue_(q),
       packed_(pack(s, false)),
       count_(packed_.world.triangle_count),
-      tuned_(with_flags(tuning_for(q.get_device()), flags)),
+      tuned_(t),
       builder_(q, kernel_sources(), tuned_, {tuned_.leaf_sure, tuned_.leaf_size}),
       gather_(q, kernel_sources(), tuned_),
       corners_(packed_.corners.data(), packed_.corners.size()),

@@ -14,8 +14,7 @@ namespace facet::bench {
 
 class kept_build {
  public:
-  /// flags: added to those of the kernels' compiler.
-  kept_build(const runtime::queue& q, const scene& s, const std::string& flags);
+  kept_build(const runtime::queue& q, const scene& s, const tracer::tuning& t);
 
   /// Builds the tree and puts the triangles into its order: until they are ready to be traced, by
   /// the host's clock, in seconds.

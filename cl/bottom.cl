@@ -13,7 +13,7 @@
 // order: sorted place -> primitive; becomes leaf place -> primitive. Nodes are appended at counter[0];
 // a leaf's places are counted from 0. refs[k]: what subtree k is as a node's child.
 __kernel __attribute__((reqd_work_group_size(32, 1, 1))) void build_bottoms(
-    PRIMITIVES primitives, __global const uint* starts, __global uint* order, __global Node* nodes,
+    PRIMITIVES restrict primitives, __global const uint* starts, __global uint* order, __global Node* nodes,
     __global Item* items, __global uint* refs, __global uint* counter, uint room, uint subtrees,
     __local uint* pool) {
   const uint lane = (uint)get_local_id(0), tree = lane / MOST, place = lane % MOST, begin = tree * MOST;
@@ -21,7 +21,7 @@ __kernel __attribute__((reqd_work_group_size(32, 1, 1))) void build_bottoms(
   const uint first = starts[min(k, subtrees)], count = k < subtrees ? starts[k + 1u] - first : 0u;
   const bool is_there = place < count;
   __local float* box = (__local float*)pool;
-  const uint primitive = order[is_there ? first + place : 0u];
+  const uint primitive = is_there ? order[first + place] : 0u;
   put_sweep_box(box, lane, bounds_at(primitives, primitive));
   pool[SWEEP_WEIGHT + lane] = 0u;
   const Swept t = sweep_tree(lane, is_there ? begin : lane, is_there ? begin + count : lane, 0u, pool);

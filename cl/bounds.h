@@ -40,7 +40,7 @@ static inline float split_cost(Bounds left, float left_weight, Bounds right, flo
 static inline float3 centre2(Bounds b) { return b.lo + b.hi; }
 
 #ifdef FACET_OVER_BOXES
-#define PRIMITIVES __global const Box* restrict
+#define PRIMITIVES __global const Box*
 static inline Bounds bounds_at(PRIMITIVES boxes, uint i) {
   Bounds b;
   b.lo = vec_global(boxes[i].lo);
@@ -49,7 +49,7 @@ static inline Bounds bounds_at(PRIMITIVES boxes, uint i) {
 }
 #else
 // Three corners in a row.
-#define PRIMITIVES __global const float4* restrict
+#define PRIMITIVES __global const float4*
 static inline Bounds bounds_at(PRIMITIVES corners, uint i) {
   const float3 p = corners[3 * (size_t)i].xyz, q = corners[3 * (size_t)i + 1].xyz,
                r = corners[3 * (size_t)i + 2].xyz;

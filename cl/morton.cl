@@ -27,7 +27,7 @@ static inline void write_bounds(__local const float* pool, __global Box* to) {
 }
 
 // Bounds of all doubled centres: first of each group's share, ...
-__kernel void partial_bounds(PRIMITIVES primitives, __global Box* partial, uint count, __local float* pool) {
+__kernel void partial_bounds(PRIMITIVES restrict primitives, __global Box* partial, uint count, __local float* pool) {
   Bounds b = no_bounds();
   for (size_t i = get_global_id(0); i < count; i += get_global_size(0)) {
     const float3 c = centre2(bounds_at(primitives, (uint)i));
@@ -94,7 +94,7 @@ static inline uint cell_of(float centre, float lo, float scale, uint mask) {
   return (uint)smaller(larger((centre - lo) * scale, 0.0f), (float)(cells - 1u));
 }
 
-__kernel void morton_codes(PRIMITIVES primitives, __global const Curve* curve, __global uint* codes, uint count) {
+__kernel void morton_codes(PRIMITIVES restrict primitives, __global const Curve* curve, __global uint* codes, uint count) {
   const uint i = (uint)get_global_id(0);
   if (i >= count) return;
   const float3 c = centre2(bounds_at(primitives, i));

@@ -183,7 +183,7 @@ static inline uint serial_sweep(const Entries* e, uint count, uint leaf_sure, ui
 }
 
 // As build_bottoms of cl/bottom.cl, `each` subtrees a work-item.
-__kernel void build_bottoms(PRIMITIVES primitives, __global const uint* starts, __global uint* order,
+__kernel void build_bottoms(PRIMITIVES restrict primitives, __global const uint* starts, __global uint* order,
                             __global Node* nodes, __global Item* items, __global uint* refs,
                             __global uint* counter, uint room, uint subtrees, uint each) {
   const uint begin = (uint)get_global_id(0) * each, end = min(begin + each, subtrees);

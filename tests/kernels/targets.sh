@@ -39,9 +39,13 @@ for target in spir64-unknown-unknown nvptx64-nvidia-nvcl amdgcn-amd-amdhsa; do
   # What render.cl is made of, asked one by one: with everything, and with all left out.
   echo "$target code probe.cl"
   echo "$target code probe.cl${derived[*]/#/ -D}"
-  for kernel in morton.cl levels.cl tree.cl look_back.cl cut_tree.cl fold.cl blocks.cl; do
+  for kernel in morton.cl bottom.cl "morton.cl -DFACET_OVER_BOXES" "bottom.cl -DFACET_OVER_BOXES" subtrees.cl top.cl \
+      levels.cl tree.cl leaf_order.cl look_back.cl cut_tree.cl fold.cl blocks.cl; do
     echo "$target code $kernel"
   done
+  as=check
+  [[ $target == spir64* ]] && as=code
+  echo "$target $as serial_tree.cl"
   for key in uint ulong; do
     for kernel in radix_counts.cl radix_sort.cl "radix_sort.cl -DFACET_LOOK_BACK" \
         "radix_sort.cl -DFACET_LOOK_BACK -DFACET_SORT_BESIDE -DGROUP=512 -DITEMS=3 -DCOPIES=2"; do

@@ -1,0 +1,20 @@
+#!/usr/bin/env bash
+# Builds small trees in Oclgrind, by groups and by single work-items: it interprets the kernels and reports
+# data races, diverging barriers and accesses out of bounds.
+# Without optimisation: Oclgrind does not know what Clang writes where it inlines functions that return
+# structures.
+# Usage: build_races.sh FACET_BENCH
+set -euo pipefail
+bench=$1
+command -v oclgrind >/dev/null || { echo "SKIPPED: no oclgrind (Debian package oclgrind)"; exit 77; }
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+
+build() {
+  oclgrind --data-races --check-api --local-mem-size 65536 --log "$log" "$bench" build --kept \
+    --device Oclgrind --repeat 1 --flags=-cl-opt-disable "$@" >/dev/null
+  [[ ! -s $log ]] || { echo "FAILED: build $*"; head -40 "$log"; exit 1; }
+}
+build --face group --mesh soup:1 soup:40 soup:1000
+build --face serial --mesh soup:1 soup:40 soup:200
+echo "6 builds without a race"
