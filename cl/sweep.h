@@ -112,16 +112,40 @@ static inline TwoSides sides_below(__local const uint* pool, uint begin, uint en
   return s;
 }
 
-// Tries that split: tells its cost and its key, the axis and below it how many boxes are on the left.
-static inline void try_split(__local uint* pool, uint begin, uint end, uint own, uint axis, float* cost,
-                                 uint* key) {
-  const TwoSides s = sides_below(pool, begin, end, own, axis);
-  const float its_cost = split_cost(s.left, s.left_weight, s.right, s.right_weight);
-  const uint its_key = axis << 8 | s.left_count;
-  if (s.left_count != 0u && (its_cost < *cost || (its_cost == *cost && its_key < *key))) {
-    *cost = its_cost;
-    *key = its_key;
+// What a split below a place costs, and its key: the axis and below it how many boxes are on the left.
+typedef struct {
+  float cost;
+  uint key;
+} Split;
+
+static inline void better_split(Split* best, uint axis, const TwoSides* sides) {
+  const float cost = split_cost(sides->left, sides->left_weight, sides->right, sides->right_weight);
+  const uint key = axis << 8 | sides->left_count;
+  if (sides->left_count == 0u || cost > best->cost || (cost == best->cost && key > best->key)) return;
+  best->cost = cost;
+  best->key = key;
+}
+
+// The best of the splits of places begin .. end - 1 below place `own`, of all axes in one pass.
+static inline Split best_split_below(__local const uint* pool, uint begin, uint end, uint own) {
+  __local const float* box = (__local const float*)pool;
+  const float3 here = centre2(sweep_box(box, own));
+  TwoSides x = no_sides(), y = no_sides(), z = no_sides();
+  for (uint i = begin; i < end; ++i) {
+    const Bounds b = sweep_box(box, i);
+    const float3 c = centre2(b);
+    const float weight = SWEEP_WEIGHT_OF(pool, i);
+    take_side(&x, is_below(c.x, i, here.x, own), b, weight);
+    take_side(&y, is_below(c.y, i, here.y, own), b, weight);
+    take_side(&z, is_below(c.z, i, here.z, own), b, weight);
   }
+  Split best;
+  best.cost = INFINITY;
+  best.key = 0xffffffffu;
+  better_split(&best, 0u, &x);
+  better_split(&best, 1u, &y);
+  better_split(&best, 2u, &z);
+  return best;
 }
 
 // What a place knows of the tree once it is finished.
@@ -155,13 +179,12 @@ static inline Swept sweep_tree(uint lane, uint begin, uint end, uint base, __loc
     barrier(CLK_LOCAL_MEM_FENCE);
     if (lane < 2u) pool[SWEEP_MASK + lane] = 0u;
     is_open = is_open && end - begin > LEAF_SURE;
-    float cost = INFINITY;
-    uint key = 0xffffffffu;
-    if (is_open) {
-      for (uint a = 0u; a < 3u; ++a) try_split(pool, begin, end, lane, a, &cost, &key);
-    }
-    pool[SWEEP_COST + lane] = as_uint(cost);
-    pool[SWEEP_KEY + lane] = key;
+    Split own;
+    own.cost = INFINITY;
+    own.key = 0xffffffffu;
+    if (is_open) own = best_split_below(pool, begin, end, lane);
+    pool[SWEEP_COST + lane] = as_uint(own.cost);
+    pool[SWEEP_KEY + lane] = own.key;
     barrier(CLK_LOCAL_MEM_FENCE);
 
     uint winner = begin;
@@ -170,11 +193,10 @@ static inline Swept sweep_tree(uint lane, uint begin, uint end, uint base, __loc
         const float a = as_float(pool[SWEEP_COST + i]), b = as_float(pool[SWEEP_COST + winner]);
         if (a < b || (a == b && pool[SWEEP_KEY + i] < pool[SWEEP_KEY + winner])) winner = i;
       }
-      key = pool[SWEEP_KEY + winner];
       if (end - begin <= LEAF_MOST)
         is_open = half_area(all) * (float)(end - begin - 1u) > as_float(pool[SWEEP_COST + winner]);
     }
-    const uint axis = is_open ? key >> 8 : 0u, left_count = key & 255u;
+    const uint key = pool[SWEEP_KEY + winner], axis = is_open ? key >> 8 : 0u, left_count = key & 255u;
     const bool goes_left = is_open && is_below(axis_centre2(box, lane, axis), lane,
                                                axis_centre2(box, winner, axis), winner);
     if (is_open && lane == begin) atomic_or(&pool[SWEEP_MASK], 1u << lane);
