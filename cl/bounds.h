@@ -24,7 +24,7 @@ static inline Bounds joined(Bounds a, Bounds b) {
 }
 
 // Half the surface. The order of the operations is part of every tree: builders that work by other
-// means get the same bits (cl/serial_tree.cl).
+// means get the same bits (cl/serial_sweep.h).
 static inline float half_area(Bounds b) {
   const float3 e = b.hi - b.lo;
   return (e.x * e.y + e.y * e.z) + e.z * e.x;

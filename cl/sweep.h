@@ -7,7 +7,7 @@
 //
 // The tree depends on the boxes and their order alone: of equal centres the box that came first is the
 // lower; of splits that cost the same the one with the lowest axis comes first, then the one with the
-// fewest boxes on the left. cl/serial_tree.cl gets the same tree.
+// fewest boxes on the left. cl/serial_sweep.h gets the same tree.
 #ifndef FACET_SWEEP_H
 #define FACET_SWEEP_H
 

@@ -97,7 +97,7 @@ void tree_builder<Primitive>::try_build(runtime::buffer<Primitive>& primitives, 
 template <class Primitive>
 std::uint64_t tree_builder<Primitive>::scratch_bytes(std::uint64_t count) {
   // Nodes and order; codes and their and the order's copies for the sort; what the top has.
-  const std::uint64_t items = count / 8 + 1;  // subtrees hold 16 primitives or more, but for ties
+  const std::uint64_t items = count / 8 + 1;  // subtrees of meshes have about 20 primitives
   return count * (sizeof(Node) * 62 / 100 + 4 + 12) + items * (sizeof(Item) + 8) +
          top_tree::scratch_bytes(items);
 }
