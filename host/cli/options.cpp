@@ -87,7 +87,7 @@ void add_kernels(CLI::App& app, tracer::options& target) {
                                   {{"auto", tracer::layout_kind::automatic},
                                    {"narrow", tracer::layout_kind::narrow},
                                    {"wide", tracer::layout_kind::wide}},
-                                  "Nodes of four children and single triangles, or eight of both\n"
+                                  "Nodes of two children and single triangles, or eight of both\n"
                                   "at a time (default auto: wide on CPUs, but for images)");
   app.add_option("--kernels", target.kernel_folder,
                  "Read the OpenCL C files from this folder, not from the program")

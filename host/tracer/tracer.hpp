@@ -16,11 +16,13 @@
 
 namespace facet::tracer {
 
+/// none: every triangle is tested. levels: neighbours along the Morton curve are joined
+/// (levels.hpp). binned: splits by the surface area heuristic (tree_builder.hpp).
 enum class tree_kind { none, levels, binned };
 /// As the command line names it.
 const char* word_of(tree_kind kind);
 enum class geometry_kind { automatic, buffer, image };
-/// How a kernel finds trees and triangles: four children to a node and one triangle at a time, for
+/// How a kernel finds trees and triangles: two children to a node and one triangle at a time, for
 /// GPUs, or eight of both at a time, for CPUs. Hits are the same. Images are for `narrow`.
 enum class layout_kind { automatic, narrow, wide };
 
