@@ -57,9 +57,9 @@ __kernel void make_blocks(__global const uint* leaves, __global const uint* orde
       STORE_PAST_CACHES(LANES(p, y), &to[3u * k + 1u]);
       STORE_PAST_CACHES(LANES(p, z), &to[3u * k + 2u]);
     }
-    __global uint4* info = (__global uint4*)(infos + FACET_BLOCK * block);
+    __global uint2* info = (__global uint2*)(infos + FACET_BLOCK * block);
     for (uint lane = 0u; lane < FACET_BLOCK; ++lane)
-      STORE_PAST_CACHES(((uint4)((uint)triangle[lane], materials[triangle[lane]], 0u, 0u)), &info[lane]);
+      STORE_PAST_CACHES(((uint2)((uint)triangle[lane], materials[triangle[lane]])), &info[lane]);
   }
 }
 

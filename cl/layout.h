@@ -1,6 +1,6 @@
 // The structures that cross between host and device: the common subset of C and C++.
 //
-// Only float, uint and arrays of them; every size is a multiple of 16 bytes and every group of four
+// Only float, uint and arrays of them; every size is a multiple of 16 bytes, or 8, and every group of four
 // words starts at one, so that no compiler has room for an opinion. The sizes are asserted on
 // both sides and each device is asked for its own (tests/tracer/layout_test.cpp).
 #ifndef FACET_LAYOUT_H
@@ -8,13 +8,16 @@
 
 #ifdef __OPENCL_C_VERSION__
 #define FACET_ALIGNED __attribute__((aligned(16)))
+#define FACET_PAIR __attribute__((aligned(8)))
 #define FACET_SIZE(type, bytes) typedef char size_of_##type[sizeof(type) == (bytes) ? 1 : -1];
 #else
 #include <cstdint>
 namespace facet::tracer {
 using uint = std::uint32_t;
 #define FACET_ALIGNED alignas(16)
-#define FACET_SIZE(type, bytes) static_assert(sizeof(type) == (bytes) && alignof(type) == 16);
+#define FACET_PAIR alignas(8)
+#define FACET_SIZE(type, bytes) \
+  static_assert(sizeof(type) == (bytes) && alignof(type) == ((bytes) == 8 ? 8 : 16));
 #endif
 
 // A primitive's bounds, input of every builder.
@@ -130,10 +133,9 @@ struct FACET_ALIGNED FoldPlan {
 };
 
 // Where a triangle in leaf order comes from.
-struct FACET_ALIGNED TriangleInfo {
+struct FACET_PAIR TriangleInfo {
   uint triangle;  // its index in the mesh
   uint material;
-  uint spare[2];
 };
 
 // A placed mesh. Matrices are three rows of four, row i at [4 * i].
@@ -311,7 +313,7 @@ FACET_SIZE(WideNode, 256)
 FACET_SIZE(TriangleBlock, 288)
 FACET_SIZE(FoldCost, 96)
 FACET_SIZE(FoldPlan, 16)
-FACET_SIZE(TriangleInfo, 16)
+FACET_SIZE(TriangleInfo, 8)
 FACET_SIZE(Instance, 160)
 FACET_SIZE(Material, 128)
 FACET_SIZE(Light, 48)
@@ -328,4 +330,5 @@ FACET_SIZE(Passage, 32)
 #endif
 #undef FACET_SIZE
 #undef FACET_ALIGNED
+#undef FACET_PAIR
 #endif

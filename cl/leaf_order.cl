@@ -14,7 +14,6 @@ __kernel void gather_triangles(__global const uint* order, __global const float4
   TriangleInfo info;
   info.triangle = from;
   info.material = materials[from];
-  info.spare[0] = info.spare[1] = 0u;
   infos[to] = info;
 }
 

@@ -94,10 +94,10 @@ TEST_CASE("as traced: bytes are those of the nodes and slots that can be reached
     const auto leaves =
         std::count_if(t.nodes.begin(), t.nodes.end(), [](const auto& n) { return n.is_leaf; });
     const auto inner = std::ptrdiff_t(t.nodes.size()) - leaves;
-    // 64 bytes a node, and 48 of corners and 16 of info a triangle; or 256 a node and 8 * (36 +
-    // 16) a block; the soup has no normals.
+    // 64 bytes a node, and 48 of corners and 8 of info a triangle; or 256 a node and 8 * (48 +
+    // 8) a block; the soup has no normals.
     const std::ptrdiff_t bytes =
-        layout == layout_kind::narrow ? 64 * inner + 64 * 1000 : 256 * inner + 512 * leaves;
+        layout == layout_kind::narrow ? 64 * inner + 56 * 1000 : 256 * inner + 8 * 56 * leaves;
     CHECK(std::ptrdiff_t(t.bytes) == bytes);
   }
 }
