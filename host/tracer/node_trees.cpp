@@ -20,7 +20,7 @@ Box box_of(const Instance& i) {
 
 node_trees::node_trees(const runtime::queue& q, const runtime::source_tree& kernels,
                        const tuning& t, tree_kind kind, leaf_rule leaves)
-    : queue_(q), kernels_(kernels), tuning_(t), kind_(kind), leaves_(leaves), cut_(q, kernels, t) {
+    : queue_(q), kernels_(kernels), tuning_(t), leaves_(leaves), cut_(q, kernels, t) {
   if (kind == tree_kind::binned)
     binned_.emplace(q, kernels, t, leaves);
   else

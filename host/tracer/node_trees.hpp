@@ -40,7 +40,6 @@ class node_trees {
   runtime::queue queue_;
   const runtime::source_tree& kernels_;
   tuning tuning_;
-  tree_kind kind_;
   leaf_rule leaves_;
   std::optional<levels_builder> levels_;
   std::optional<tree_builder<texel>> binned_;
