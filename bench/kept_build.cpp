@@ -31,7 +31,7 @@ std::map<std::string, double> kept_build::kernel_ms() const {
   const auto add = [&](const std::string& name, const runtime::event& e) {
     sums[name] += e.milliseconds();
   };
-  for (const sort_step& s : builder_.steps()) add(s.kernel, s.done);
+  for (const step& s : builder_.steps()) add(s.kernel, s.done);
   add("gather_triangles", gathered_);
   return sums;
 }

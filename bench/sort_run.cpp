@@ -22,10 +22,10 @@ std::vector<key_value<Key>> random_pairs(std::uint32_t count, unsigned bits) {
   return pairs;
 }
 
-void add_device_times(const std::vector<tracer::sort_step>& steps, sort_times& times) {
+void add_device_times(const std::vector<tracer::step>& steps, sort_times& times) {
   std::uint64_t start = ~std::uint64_t(0), end = 0;
   std::map<std::string, double> here;
-  for (const tracer::sort_step& s : steps) {
+  for (const tracer::step& s : steps) {
     start = std::min(start, s.done.get_profiling_info<profiling::command_start>());
     end = std::max(end, s.done.get_profiling_info<profiling::command_end>());
     here[s.kernel] += s.done.milliseconds();
@@ -61,7 +61,7 @@ sort_times measure_sort(runtime::queue q, const sort_plan& plan) {
       h.copy(values.data(), runtime::accessor{device_values, h, runtime::write_only});
     });
     q.wait_and_throw();
-    std::vector<tracer::sort_step> steps;
+    std::vector<tracer::step> steps;
     const double wall = seconds([&] {
       steps = plan.is_order ? sorter.sort_order(device_keys, device_values, n, plan.bits)
                             : sorter.sort(device_keys, device_values, n, plan.bits);

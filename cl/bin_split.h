@@ -5,20 +5,27 @@
 
 #include "bins.h"
 
-#ifndef GROUP
-#define GROUP 256u
-#endif
+// Floats as integers in the same order, so that atomics can bound them.
+static inline uint ordered(float x) {
+  const uint bits = as_uint(x);
+  return bits ^ ((bits >> 31) != 0u ? 0xffffffffu : 0x80000000u);
+}
+static inline float unordered(uint x) {
+  return as_float(x ^ ((x >> 31) != 0u ? 0x80000000u : 0xffffffffu));
+}
+#define ORDERED_LEAST 0u
+#define ORDERED_MOST 0xffffffffu
 
 // A bin in memory: lo, hi as ordered integers, weight, items.
-#define BIN_WORDS 8u
-#define ALL_BIN_WORDS (3u * BINS * BIN_WORDS)
+#define BIN_WORDS FACET_BIN_WORDS
+#define ALL_BIN_WORDS FACET_ALL_BIN_WORDS
 
 // Local memory, in words: the bins, then
 #define SPLIT_COSTS ALL_BIN_WORDS               // one a candidate: bins below c % BINS of an axis go left
 #define SPLIT_CHOICE (SPLIT_COSTS + 3u * BINS)  // axis, bin; where a tile's items of each side go
 #define SPLIT_SIDES (SPLIT_CHOICE + 4u)         // as TopSides
-#define SPLIT_WORDS (SPLIT_SIDES + 16u)
 #define SIDES_COUNT 12u
+// FACET_SPLIT_WORDS in all
 
 static inline uint empty_bin_word(uint i) { return i % BIN_WORDS < 3u ? ORDERED_MOST : ORDERED_LEAST; }
 
@@ -68,7 +75,7 @@ static inline BinSum sum_bins(__local const uint* bins, uint axis, uint begin, u
   return s;
 }
 
-// What each split between the bins costs. A barrier must follow.
+// What each split between the bins costs.
 static inline void find_costs(__local uint* pool, const TopRange* r) {
   const uint c = (uint)get_local_id(0);
   if (c >= 3u * BINS) return;
@@ -82,7 +89,7 @@ static inline void find_costs(__local uint* pool, const TopRange* r) {
 
 // The best split, of those that cost the same the first: pool[SPLIT_CHOICE ..]. Makes pool[SPLIT_SIDES ..]
 // that of the two sides, but for the counts, which are 0, and for the bounds of a split by index, which
-// hold nothing. A barrier must follow.
+// hold nothing.
 static inline void choose_split(__local uint* pool, const TopRange* r) {
   const uint side = (uint)get_local_id(0);
   if (side >= 2u) return;
@@ -102,6 +109,15 @@ static inline void choose_split(__local uint* pool, const TopRange* r) {
     sides[6u + 3u * side + a] = is_by_bins ? sum.hi[a] : ORDERED_LEAST;
   }
   sides[SIDES_COUNT + side] = 0u;
+}
+
+// Both, of bins that are full; all work-items of the group call it together.
+static inline void split_bins(__local uint* pool, const TopRange* r) {
+  barrier(CLK_LOCAL_MEM_FENCE);
+  find_costs(pool, r);
+  barrier(CLK_LOCAL_MEM_FENCE);
+  choose_split(pool, r);
+  barrier(CLK_LOCAL_MEM_FENCE);
 }
 
 static inline uint side_of(__local const uint* pool, __global const Item* item, const TopRange* r) {

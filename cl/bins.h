@@ -5,24 +5,10 @@
 
 #include "bounds.h"
 
-#define BINS 16u
-// A bin in memory: lo, hi as ordered integers, weight, items.
-#define BIN_WORDS 8u
-#define ALL_BIN_WORDS (3u * BINS * BIN_WORDS)
+#define BINS FACET_BINS
 
 // Deeper ranges are halved by their items' indices: that ends after as many levels as an index has bits.
 #define TOP_SWEPT_DEPTH 48u
-
-// Floats as integers in the same order, so that atomics can bound them.
-static inline uint ordered(float x) {
-  const uint bits = as_uint(x);
-  return bits ^ ((bits >> 31) != 0u ? 0xffffffffu : 0x80000000u);
-}
-static inline float unordered(uint x) {
-  return as_float(x ^ ((x >> 31) != 0u ? 0x80000000u : 0xffffffffu));
-}
-#define ORDERED_LEAST 0u
-#define ORDERED_MOST 0xffffffffu
 
 static inline Bounds item_bounds(__global const Item* i) {
   Bounds b;

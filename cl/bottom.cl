@@ -1,43 +1,34 @@
-// The trees at the bottom: over each of the subtrees that cl/subtrees.cl lists. A group takes as many as
-// its work-items have places for.
+// The trees at the bottom: over each of the subtrees that cl/subtrees.cl lists, a group to a subtree.
 #include "sweep.h"
-
-// Primitives of a subtree, at most.
-#ifndef MOST
-#define MOST 16u
-#endif
-
-// Local memory beside the sweep's: each tree's height.
-#define BOTTOM_HEIGHTS SWEEP_WORDS
 
 // order: sorted place -> primitive; becomes leaf place -> primitive. Nodes are appended at counter[0];
 // a leaf's places are counted from 0. refs[k]: what subtree k is as a node's child.
 __kernel __attribute__((reqd_work_group_size(32, 1, 1))) void build_bottoms(
     PRIMITIVES restrict primitives, __global const uint* starts, __global uint* order, __global Node* nodes,
-    __global Item* items, __global uint* refs, __global uint* counter, uint room, uint subtrees,
-    __local uint* pool) {
-  const uint lane = (uint)get_local_id(0), tree = lane / MOST, place = lane % MOST, begin = tree * MOST;
-  const uint k = (uint)get_group_id(0) * (SWEEP_MOST / MOST) + tree;
-  const uint first = starts[min(k, subtrees)], count = k < subtrees ? starts[k + 1u] - first : 0u;
-  const bool is_there = place < count;
+    __global Item* items, __global uint* refs, __global uint* counter, uint room, __local uint* pool) {
+  const uint lane = (uint)get_local_id(0), k = (uint)get_group_id(0);
+  const uint first = starts[k], count = starts[k + 1u] - first;
+  const bool is_there = lane < count;
   __local float* box = (__local float*)pool;
-  const uint primitive = is_there ? order[first + place] : 0u;
+  const uint primitive = is_there ? order[first + lane] : 0u;
   put_sweep_box(box, lane, bounds_at(primitives, primitive));
   pool[SWEEP_WEIGHT + lane] = 0u;
-  const Swept t = sweep_tree(lane, is_there ? begin : lane, is_there ? begin + count : lane, 0u, pool);
+  const Swept t = sweep_tree(lane, count, 0u, pool);
 
   barrier(CLK_LOCAL_MEM_FENCE);
   pool[SWEEP_WEIGHT + lane] = primitive;
-  if (lane == 0u) pool[SWEEP_MASK] = t.nodes == 0u ? 0u : atomic_add(counter, t.nodes);
-  pool[BOTTOM_HEIGHTS + lane] = 0u;
+  if (lane == 0u) {
+    pool[SWEEP_MASK] = t.nodes == 0u ? 0u : atomic_add(counter, t.nodes);
+    pool[SWEEP_MASK + 1u] = 0u;
+  }
   barrier(CLK_LOCAL_MEM_FENCE);
   const uint base = pool[SWEEP_MASK];
-  const uint leaf = FACET_LEAF(first + t.leaf_begin - begin, t.leaf_count);
+  const uint leaf = FACET_LEAF(first + t.leaf_begin, t.leaf_count);
   if (is_there) {
-    order[first + place] = pool[SWEEP_WEIGHT + t.moved_from];
+    order[first + lane] = pool[SWEEP_WEIGHT + t.moved_from];
     if (t.link != NO_LINK && lane == t.leaf_begin)
       pool[SWEEP_NODES + 16u * (t.link >> 1) + NODE_CHILD + (t.link & 1u)] = leaf;
-    atomic_max(&pool[BOTTOM_HEIGHTS + tree], t.depth);
+    atomic_max(&pool[SWEEP_MASK + 1u], t.depth);
   }
   barrier(CLK_LOCAL_MEM_FENCE);
   // What does not fit is counted all the same: the host makes room and starts again.
@@ -47,14 +38,14 @@ __kernel __attribute__((reqd_work_group_size(32, 1, 1))) void build_bottoms(
       const bool is_node = word >= NODE_CHILD && (value & FACET_LEAF_BIT) == 0u;
       ((__global uint*)(nodes + base))[i] = word >= NODE_CHILD + 2u ? 0u : is_node ? value + base : value;
     }
-  if (is_there && place == 0u) {
-    Bounds all = sweep_box(box, begin);
-    for (uint i = 1u; i < count; ++i) all = joined(all, sweep_box(box, begin + i));
+  if (lane == 0u) {
+    Bounds all = sweep_box(box, 0u);
+    for (uint i = 1u; i < count; ++i) all = joined(all, sweep_box(box, i));
     Item item;
     item.lo[0] = all.lo.x, item.lo[1] = all.lo.y, item.lo[2] = all.lo.z, item.index = k;
     item.hi[0] = all.hi.x, item.hi[1] = all.hi.y, item.hi[2] = all.hi.z;
-    item.size = count | pool[BOTTOM_HEIGHTS + tree] << FACET_HEIGHT_BIT;
+    item.size = count | pool[SWEEP_MASK + 1u] << FACET_HEIGHT_BIT;
     items[k] = item;
-    refs[k] = t.link == NO_LINK ? FACET_LEAF(first, count) : base + t.root;
+    refs[k] = t.nodes == 0u ? FACET_LEAF(first, count) : base;
   }
 }

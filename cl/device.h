@@ -34,6 +34,17 @@ static inline uint first_lane(uint lanes) { return 31u - clz(lanes & -lanes); }
 #endif
 static inline uint without_first(uint lanes) { return lanes & (lanes - 1u); }
 
+// The lowest bits of `cell` at the places of the mask's bits, the lowest at the lowest.
+static inline uint deposit(uint cell, uint mask) {
+#if defined(__BMI2__) && !defined(FACET_PORTABLE)
+  return __builtin_ia32_pdep_si(cell, mask);
+#else
+  uint code = 0u;
+  for (; mask != 0u; mask &= mask - 1u, cell >>= 1) code |= (cell & 1u) != 0u ? mask & -mask : 0u;
+  return code;
+#endif
+}
+
 // Asks for the memory from p on, which is read later.
 #if defined(__x86_64__) && !defined(FACET_PORTABLE)
 static inline void fetch_lines(__global const void* p, uint bytes) {

@@ -9,7 +9,7 @@
 //   FACET_GEOMETRY_IMAGE   positions and normals are read from image2d, not from buffers
 //   FACET_WIDE             nodes of eight children, triangles in blocks of eight (layout.h); from buffers
 //   FACET_TREE_NONE        brute force: every triangle is tested
-//   FACET_STACK=n          entries of the traversal stack: three for each level, or seven (traverse.h)
+//   FACET_STACK=n          entries of the traversal stack: one for each level, or seven (search_narrow.h, search_wide.h)
 //   FACET_RAY_STACK=n      entries of the stack of pending rays: at least max_depth
 //   FACET_NESTING=n        transparent objects that may lie within one another (media.h)
 //   FACET_HARDWARE_MINMAX, FACET_PORTABLE  see device.h

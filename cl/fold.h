@@ -7,7 +7,7 @@
 #ifndef FACET_FOLD_H
 #define FACET_FOLD_H
 
-#include "vec.h"
+#include "bounds.h"
 
 #define WIDTH 8u
 
@@ -37,12 +37,11 @@ static inline Ways ways_at(__global const FoldCost* cost) {
   return w;
 }
 
-// Of half of node n's bounds.
-static inline float half_area(__global const Node* n) {
-  const float x = larger(n->x[1][0], n->x[1][1]) - smaller(n->x[0][0], n->x[0][1]);
-  const float y = larger(n->y[1][0], n->y[1][1]) - smaller(n->y[0][0], n->y[0][1]);
-  const float z = larger(n->z[1][0], n->z[1][1]) - smaller(n->z[0][0], n->z[0][1]);
-  return (x * y + y * z) + z * x;
+static inline Bounds side_bounds(__global const Node* n, uint side) {
+  Bounds b;
+  b.lo = (float3)(n->x[0][side], n->y[0][side], n->z[0][side]);
+  b.hi = (float3)(n->x[1][side], n->y[1][side], n->z[1][side]);
+  return b;
 }
 
 // The fewest places that cost as little: lane k - 1 becomes the best of lanes 0 to k - 1, the lower one
@@ -85,7 +84,7 @@ static inline void plan_node(__global const Node* nodes, uint node, Ways left, W
     share = is_less ? (uint8)(k) : share;
   }
   const uint own = share.s7;
-  best.area.s0 = half_area(&nodes[node]) + best.area.s7;
+  best.area.s0 = half_area(joined(side_bounds(&nodes[node], 0u), side_bounds(&nodes[node], 1u))) + best.area.s7;
   best.nodes.s0 = 1u + best.nodes.s7;
   best.depth.s0 = 1u + best.depth.s7;
 

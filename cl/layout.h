@@ -1,90 +1,13 @@
-// The structures that cross between host and device: the common subset of C and C++.
-//
-// Only float, uint and arrays of them; every size is a multiple of 16 bytes, or 8, and every group of four
-// words starts at one, so that no compiler has room for an opinion. The sizes are asserted on
-// both sides and each device is asked for its own (tests/tracer/layout_test.cpp).
+// What traversal and shading read, what they write, and camera, lights and materials. Structures that cross
+// between host and device: structure.h says how they are declared.
 #ifndef FACET_LAYOUT_H
 #define FACET_LAYOUT_H
 
-#ifdef __OPENCL_C_VERSION__
-#define FACET_ALIGNED __attribute__((aligned(16)))
-#define FACET_PAIR __attribute__((aligned(8)))
-#define FACET_SIZE(type, bytes) typedef char size_of_##type[sizeof(type) == (bytes) ? 1 : -1];
-#else
-#include <cstdint>
+#include "build_layout.h"
+
+#ifndef __OPENCL_C_VERSION__
 namespace facet::tracer {
-using uint = std::uint32_t;
-#define FACET_ALIGNED alignas(16)
-#define FACET_PAIR alignas(8)
-#define FACET_SIZE(type, bytes) \
-  static_assert(sizeof(type) == (bytes) && alignof(type) == ((bytes) == 8 ? 8 : 16));
 #endif
-
-// A primitive's bounds, input of every builder.
-struct FACET_ALIGNED Box {
-  float lo[3];
-  uint spare0;
-  float hi[3];
-  uint spare1;
-};
-
-// How centres of boxes, doubled (lo + hi), become codes along a Morton curve: bit k of an axis' cell
-// goes to the k-th lowest bit of its mask.
-struct FACET_ALIGNED Curve {
-  float lo[3];  // of all centres
-  uint spare0;
-  float hi[3];
-  uint spare1;
-  float scale[3];  // cells a unit; 0 for an axis without extent
-  uint spare2;
-  uint mask[3];
-  uint spare3;
-};
-
-// A finished subtree, as an input of the top tree's builder.
-struct FACET_ALIGNED Item {
-  float lo[3];
-  uint index;  // along the curve; says what it is (refs[index], as a node's child) and breaks ties
-  float hi[3];
-  uint size;  // primitives below, and from bit FACET_HEIGHT_BIT on the height in nodes
-};
-#define FACET_HEIGHT_BIT 16u
-#define FACET_SIZE_OF(size) ((size) & 0xffffu)
-#define FACET_HEIGHT_OF(size) ((size) >> FACET_HEIGHT_BIT)
-
-// A node of the top tree that is not split yet: items begin to end - 1. Its nodes are to stand at
-// `node` and the end - begin - 2 places after it.
-struct FACET_ALIGNED TopRange {
-  uint begin, end;
-  uint node;
-  uint depth;  // nodes above it
-  float lo[3];
-  uint first;  // no item's index is lower, ...
-  float hi[3];  // lo to hi: where bins lie for doubled centres
-  uint last;    // ... or higher
-  uint buffer;  // which of two its items are in
-  uint spare[3];
-};
-
-// The two sides of a range that is split, [side]: bounds as order-preserving integers (cl/bins.h), and
-// how many items.
-struct FACET_ALIGNED TopSides {
-  uint lo[2][3], hi[2][3];
-  uint count[2];
-  uint spare[2];
-};
-
-// A node of the builders' binary tree. Nodes 0 to n-1 are the leaves in sorted order; n+i is the
-// node that joins the sorted primitives i and i+1. It covers the sorted range first..last.
-struct FACET_ALIGNED TreeNode {
-  float lo[3];
-  uint left;   // child; a leaf: the primitive
-  float hi[3];
-  uint right;  // child; a leaf: FACET_NONE
-  uint first, last;
-  uint height;  // 0 for a leaf, else 1 + the larger of the children's
-  uint spare;
-};
 
 // A node as traversal reads it: its two children's bounds, then what they are: a node's index, or a
 // leaf (FACET_LEAF). It is also what other layouts are made from.
@@ -114,22 +37,6 @@ struct FACET_ALIGNED WideNode {
 // (cl/blocks.cl).
 struct FACET_ALIGNED TriangleBlock {
   float corner[3][3][8];
-};
-
-// What a subtree of the binary tree costs where it has k places among the children of a wide node, at
-// [k - 1]: its wide nodes, as they were then chosen (cl/fold.h).
-struct FACET_ALIGNED FoldCost {
-  float area[8];  // sum of half their areas
-  uint nodes[8];  // how many
-  uint depth[8];  // how many on the longest way down
-};
-
-// What was chosen for a node of the binary tree. Its counts give way to its place once this is known.
-struct FACET_ALIGNED FoldPlan {
-  uint left;    // places that its left side takes, four bits for each k (cl/fold.h)
-  uint leaves;  // of its subtree; then those before its own
-  uint nodes;   // wide nodes of its subtree, where it is one itself; then those before it
-  uint next;    // of a list threaded through the nodes
 };
 
 // Where a triangle in leaf order comes from.
@@ -278,17 +185,9 @@ struct FACET_ALIGNED Passage {
 #define FACET_LEAF_COUNT(child) ((((child) >> 27) & 15u) + 1u)
 
 #ifdef __OPENCL_C_VERSION__
-typedef struct Box Box;
-typedef struct Curve Curve;
-typedef struct Item Item;
-typedef struct TopRange TopRange;
-typedef struct TopSides TopSides;
-typedef struct TreeNode TreeNode;
 typedef struct Node Node;
 typedef struct WideNode WideNode;
 typedef struct TriangleBlock TriangleBlock;
-typedef struct FoldCost FoldCost;
-typedef struct FoldPlan FoldPlan;
 typedef struct TriangleInfo TriangleInfo;
 typedef struct Instance Instance;
 typedef struct Material Material;
@@ -302,17 +201,9 @@ typedef struct SurfacePoint SurfacePoint;
 typedef struct Passage Passage;
 #endif
 
-FACET_SIZE(Box, 32)
-FACET_SIZE(Curve, 64)
-FACET_SIZE(Item, 32)
-FACET_SIZE(TopRange, 64)
-FACET_SIZE(TopSides, 64)
-FACET_SIZE(TreeNode, 48)
 FACET_SIZE(Node, 64)
 FACET_SIZE(WideNode, 256)
 FACET_SIZE(TriangleBlock, 288)
-FACET_SIZE(FoldCost, 96)
-FACET_SIZE(FoldPlan, 16)
 FACET_SIZE(TriangleInfo, 8)
 FACET_SIZE(Instance, 160)
 FACET_SIZE(Material, 128)
@@ -328,7 +219,4 @@ FACET_SIZE(Passage, 32)
 #ifndef __OPENCL_C_VERSION__
 }  // namespace facet::tracer
 #endif
-#undef FACET_SIZE
-#undef FACET_ALIGNED
-#undef FACET_PAIR
 #endif

@@ -77,17 +77,6 @@ __kernel void total_bounds(__global const Box* partial, __global Curve* curve, u
   }
 }
 
-// The cell's bits at the places of the mask's bits, the lowest at the lowest.
-static inline uint deposit(uint cell, uint mask) {
-#if defined(__BMI2__) && !defined(FACET_PORTABLE)
-  return __builtin_ia32_pdep_si(cell, mask);
-#else
-  uint code = 0u;
-  for (; mask != 0u; mask &= mask - 1u, cell >>= 1) code |= (cell & 1u) != 0u ? mask & -mask : 0u;
-  return code;
-#endif
-}
-
 static inline uint cell_of(float centre, float lo, float scale, uint mask) {
   const uint cells = 1u << popcount(mask);
   // Comparisons first: a centre that is not finite has a cell, too.

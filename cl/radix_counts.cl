@@ -1,6 +1,7 @@
 // Where a tile's keys of each digit go, counted before they go (cl/radix_sort.cl without look-back): each
 // tile counts its digits, and the counts, digit after digit and tile after tile, become the sums of
 // those before them: in two steps, of a group for each of at most ADDERS chunks of them.
+#include "group_sum.h"
 #include "radix_digit.h"
 
 #define ADDERS 256
@@ -18,20 +19,6 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void count_digits(
   for (uint d = lid; d < DIGITS; d += GROUP) counts[(size_t)d * get_num_groups(0) + tile] = own[d];
 }
 
-// The sum of what the work-items before this one give, of ADDERS.
-static inline uint sum_before(uint lid, uint value, __local uint* sums) {
-  sums[lid] = value;
-  barrier(CLK_LOCAL_MEM_FENCE);
-  uint up_to = value;
-  for (uint step = 1u; step < ADDERS; step *= 2u) {
-    up_to += lid >= step ? sums[lid - step] : 0u;
-    barrier(CLK_LOCAL_MEM_FENCE);
-    sums[lid] = up_to;
-    barrier(CLK_LOCAL_MEM_FENCE);
-  }
-  return up_to - value;
-}
-
 // totals[chunk]: the sum of a group's part of counts[0 .. length).
 __kernel __attribute__((reqd_work_group_size(ADDERS, 1, 1))) void sum_chunks(
     __global const uint* counts, __global uint* totals, uint length,
@@ -41,7 +28,7 @@ __kernel __attribute__((reqd_work_group_size(ADDERS, 1, 1))) void sum_chunks(
   const uint begin = chunk * chunk_length, end = min(begin + chunk_length, length);
   uint sum = 0u;
   for (uint i = begin + lid; i < end; i += ADDERS) sum += counts[i];
-  const uint before = sum_before(lid, sum, sums);
+  const uint before = sum_before(sum, sums);
   if (lid == ADDERS - 1u) totals[chunk] = before + sum;
 }
 
@@ -52,14 +39,14 @@ __kernel __attribute__((reqd_work_group_size(ADDERS, 1, 1))) void scan_chunks(
   __local uint sums[ADDERS];
   __local uint running[1];
   const uint lid = (uint)get_local_id(0), chunk = (uint)get_group_id(0);
-  const uint before_chunk = sum_before(lid, lid < get_num_groups(0) ? totals[lid] : 0u, sums);
+  const uint before_chunk = sum_before(lid < get_num_groups(0) ? totals[lid] : 0u, sums);
   if (lid == chunk) running[0] = before_chunk;
   barrier(CLK_LOCAL_MEM_FENCE);
   const uint begin = chunk * chunk_length, end = min(begin + chunk_length, length);
   uint sum = running[0];
   for (uint i = begin; i < end; i += ADDERS) {
     const uint own = i + lid < end ? counts[i + lid] : 0u;
-    const uint before = sum_before(lid, own, sums);
+    const uint before = sum_before(own, sums);
     if (i + lid < end) counts[i + lid] = sum + before;
     sum += sums[ADDERS - 1];
     barrier(CLK_LOCAL_MEM_FENCE);

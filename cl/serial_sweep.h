@@ -6,7 +6,7 @@
 
 #include "bounds.h"
 
-#define SWEEP_MOST 32u
+#define SWEEP_MOST FACET_SWEEP_MOST
 
 // A box that one comparison joins: lo, then -hi; the fourth of each is 0.
 typedef float8 Packed;

@@ -4,9 +4,10 @@
 //
 // In that tree neighbours part at the highest bit that differs, of the code and then of the place, so
 // that equal codes have a tree, too.
-#ifndef MOST
-#define MOST 16
-#endif
+#include "build_layout.h"
+#include "group_sum.h"
+
+#define MOST FACET_SWEEP_MOST
 // Places of a work-item that marks them; a multiple of 32 / its group.
 #ifndef EACH
 #define EACH 32u
@@ -58,20 +59,6 @@ __kernel void mark_subtrees(__global const uint* codes, __global uint* marks, __
   uint sum = 0u;
   for (uint k = 0u; k < words; ++k) sum += popcount(bits[k]);
   counts[at] = sum;
-}
-
-// The sum of what the work-items before this one give; sums: a word an item.
-static inline uint sum_before(uint own, __local uint* sums) {
-  const uint lid = (uint)get_local_id(0), size = (uint)get_local_size(0);
-  sums[lid] = own;
-  for (uint step = 1u; step < size; step *= 2u) {
-    barrier(CLK_LOCAL_MEM_FENCE);
-    const uint more = lid >= step ? sums[lid - step] : 0u;
-    barrier(CLK_LOCAL_MEM_FENCE);
-    sums[lid] += more;
-  }
-  barrier(CLK_LOCAL_MEM_FENCE);
-  return sums[lid] - own;
 }
 
 // counts become the sums of those before them; total[0] is that of all. One group.

@@ -13,7 +13,7 @@
 
 #include "bounds.h"
 
-#define SWEEP_MOST 32u
+#define SWEEP_MOST FACET_SWEEP_MOST
 
 // A subtree of up to LEAF_SURE boxes is a leaf, one of up to LEAF_MOST if testing all of them costs no more
 // than visiting its children; each at least 1.
@@ -31,7 +31,7 @@
 #define SWEEP_KEY 256u      // ... axis and boxes on the left
 #define SWEEP_MASK 288u     // places that ..., one word a purpose
 #define SWEEP_NODES 292u    // [31][16]: finished nodes
-#define SWEEP_WORDS 788u
+// FACET_SWEEP_WORDS in all
 
 #define NODE_CHILD 12u  // words of a Node before its children
 #define NO_LINK 0xffffffffu
@@ -153,28 +153,26 @@ typedef struct {
   uint leaf_begin, leaf_count;  // of its leaf; `link` says which child that is
   uint link;                    // 2 * node + side, or NO_LINK: the root is a leaf
   uint depth;                   // nodes above the leaf
-  uint root;                    // the tree's first node, unless it is a leaf
   uint moved_from;              // where its box stood before
-  uint nodes;                   // of all trees of the group
+  uint nodes;                   // of the whole tree
 } Swept;
 
-// All work-items call this together: for places begin .. end - 1, of which there are none if they are equal;
-// a group may hold several trees. Nodes' children are numbered from `base` on where they are nodes;
-// leaves are left for the caller.
-static inline Swept sweep_tree(uint lane, uint begin, uint end, uint base, __local uint* pool) {
+// All work-items call this together; boxes and weights are those of places 0 .. count - 1. Nodes, the root first,
+// have children that are numbered from `base` on where they are nodes; leaves are left for the caller.
+static inline Swept sweep_tree(uint lane, uint count, uint base, __local uint* pool) {
   __local float* box = (__local float*)pool;
   const uint below = (1u << lane) - 1u;
   Swept t;
   t.nodes = 0u;
   t.link = NO_LINK;
-  t.root = 0u;
   t.depth = 0u;
   t.moved_from = lane;
-  bool is_open = begin < end;
+  uint begin = 0u, end = count;
+  bool is_open = lane < count;
   // Of the node that the place is in.
   Bounds all = no_bounds();
   barrier(CLK_LOCAL_MEM_FENCE);
-  for (uint i = begin; i < end; ++i) all = joined(all, sweep_box(box, i));
+  for (uint i = 0u; i < count; ++i) all = joined(all, sweep_box(box, i));
   for (uint level = 0u; level < SWEEP_MOST; ++level) {
     barrier(CLK_LOCAL_MEM_FENCE);
     if (lane < 2u) pool[SWEEP_MASK + lane] = 0u;
@@ -215,8 +213,7 @@ static inline Swept sweep_tree(uint lane, uint begin, uint end, uint base, __loc
         put_child_bounds(pool + SWEEP_NODES + 16u * node, 0u, sides.left);
         put_child_bounds(pool + SWEEP_NODES + 16u * node, 1u, sides.right);
       }
-      if (t.link == NO_LINK) t.root = node;
-      else if (lane == begin)
+      if (lane == begin && t.link != NO_LINK)
         pool[SWEEP_NODES + 16u * (t.link >> 1) + NODE_CHILD + (t.link & 1u)] = base + node;
       const uint before = below & ~((1u << begin) - 1u);
       to = goes_left ? begin + popcount(lefts & before) : begin + left_count + popcount(~lefts & before);

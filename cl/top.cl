@@ -10,17 +10,19 @@
 #include "bin_split.h"
 #include "sweep.h"
 
-#define TILE_ITEMS 1024u
+#define GROUP FACET_TOP_GROUP
+#define TILE_ITEMS FACET_TILE_ITEMS
 // A group that splits a range alone.
 #ifndef SPLIT_GROUP
 #define SPLIT_GROUP 64u
 #endif
 
-// What a level has, in counters + 2 * level.
+// What a level has, in counters + LEVEL_WORDS * level.
+#define LEVEL_WORDS FACET_LEVEL_WORDS
 #define LEVEL_RANGES 0u
 #define LEVEL_TILES 1u
 // In counters + TOTALS: small ranges, and the deepest leaf.
-#define TOTALS 512u
+#define TOTALS FACET_TOTALS
 
 // Where what becomes of a split range goes.
 typedef struct {
@@ -131,7 +133,7 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void bin_tiles(
     __global uint* bins, __global const uint* counters, uint level, __local uint* own) {
   const uint lid = (uint)get_local_id(0), tile = (uint)get_group_id(0);
   // A group without work goes through all the same: PoCL 3.1 has trouble with barriers after a return.
-  const bool works = tile < counters[2u * level + LEVEL_TILES];
+  const bool works = tile < counters[LEVEL_WORDS * level + LEVEL_TILES];
   for (uint i = lid; i < ALL_BIN_WORDS; i += GROUP) own[i] = empty_bin_word(i);
   barrier(CLK_LOCAL_MEM_FENCE);
   const uint at = works ? tiles[2u * tile] : 0u;
@@ -158,15 +160,11 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void move_tiles(
     __global const uint* tiles, __global const uint* bins, __global TopSides* sides,
     __global const uint* counters, uint level, __local uint* pool) {
   const uint lid = (uint)get_local_id(0), tile = (uint)get_group_id(0);
-  const bool works = tile < counters[2u * level + LEVEL_TILES];
+  const bool works = tile < counters[LEVEL_WORDS * level + LEVEL_TILES];
   const uint at = works ? tiles[2u * tile] : 0u;
   const TopRange r = ranges[at];
   for (uint i = lid; i < ALL_BIN_WORDS; i += GROUP) pool[i] = bins[at * ALL_BIN_WORDS + i];
-  barrier(CLK_LOCAL_MEM_FENCE);
-  find_costs(pool, &r);
-  barrier(CLK_LOCAL_MEM_FENCE);
-  choose_split(pool, &r);
-  barrier(CLK_LOCAL_MEM_FENCE);
+  split_bins(pool, &r);
   __local uint* own = pool + SPLIT_SIDES;
   const bool is_by_index = pool[SPLIT_CHOICE] == SPLIT_BY_INDEX;
   Spread s = tile_items(&r, works ? tiles[2u * tile + 1u] : 0u);
@@ -196,11 +194,11 @@ __kernel void list_ranges(__global const Item* moved, __global const TopRange* r
                           __global TopRange* small, __global Node* nodes, __global const uint* refs,
                           __global uint* counters, uint level, uint is_tiled) {
   const uint at = (uint)get_global_id(0);
-  if (at >= counters[2u * level + LEVEL_RANGES]) return;
+  if (at >= counters[LEVEL_WORDS * level + LEVEL_RANGES]) return;
   Lists to;
   to.ranges = next_ranges, to.tiles = is_tiled != 0u ? next_tiles : 0, to.sides = next_sides;
   to.bins = next_bins, to.small = small, to.nodes = nodes, to.refs = refs, to.counters = counters;
-  list_sides(&to, ranges[at], sides[at], moved, (volatile __global uint*)(counters + 2u * (level + 1u)));
+  list_sides(&to, ranges[at], sides[at], moved, (volatile __global uint*)(counters + LEVEL_WORDS * (level + 1u)));
 }
 
 // A group splits a range, however many items it has.
@@ -209,7 +207,7 @@ __kernel __attribute__((reqd_work_group_size(SPLIT_GROUP, 1, 1))) void split_ran
     __global TopRange* next_ranges, __global TopRange* small, __global Node* nodes,
     __global const uint* refs, __global uint* counters, uint level, __local uint* pool) {
   const uint lid = (uint)get_local_id(0), at = (uint)get_group_id(0);
-  const bool works = at < counters[2u * level + LEVEL_RANGES];
+  const bool works = at < counters[LEVEL_WORDS * level + LEVEL_RANGES];
   const TopRange r = ranges[works ? at : 0u];
   const uint begin = works ? r.begin : 0u, end = works ? r.end : 0u;
   for (uint i = lid; i < ALL_BIN_WORDS; i += SPLIT_GROUP) pool[i] = empty_bin_word(i);
@@ -218,11 +216,7 @@ __kernel __attribute__((reqd_work_group_size(SPLIT_GROUP, 1, 1))) void split_ran
   const uint stride = (end - begin + 31u) / 32u, first = begin + lid % 32u * stride;
   const uint last = min(first + stride, end);
   for (uint i = first + lid / 32u; i < last; i += SPLIT_GROUP / 32u) fill_bins(pool, &items[i], &r);
-  barrier(CLK_LOCAL_MEM_FENCE);
-  find_costs(pool, &r);
-  barrier(CLK_LOCAL_MEM_FENCE);
-  choose_split(pool, &r);
-  barrier(CLK_LOCAL_MEM_FENCE);
+  split_bins(pool, &r);
   __local uint* sides = pool + SPLIT_SIDES;
   const bool is_by_index = pool[SPLIT_CHOICE] == SPLIT_BY_INDEX;
   for (uint i = first + lid / 32u; i < last; i += SPLIT_GROUP / 32u) {
@@ -242,7 +236,7 @@ __kernel __attribute__((reqd_work_group_size(SPLIT_GROUP, 1, 1))) void split_ran
   }
   s.count[0] = sides[SIDES_COUNT], s.count[1] = sides[SIDES_COUNT + 1u];
   s.spare[0] = s.spare[1] = 0u;
-  list_sides(&to, r, s, moved, (volatile __global uint*)(counters + 2u * (level + 1u)));
+  list_sides(&to, r, s, moved, (volatile __global uint*)(counters + LEVEL_WORDS * (level + 1u)));
 }
 
 // Trees over the small ranges, a group to each.
@@ -271,7 +265,7 @@ __kernel __attribute__((reqd_work_group_size(32, 1, 1))) void finish_ranges(
   pool[SWEEP_COST + place] = FACET_HEIGHT_OF(item->size);
   barrier(CLK_LOCAL_MEM_FENCE);
   const uint height = pool[SWEEP_COST + lane];
-  const Swept t = sweep_tree(lane, lane < count ? 0u : lane, lane < count ? count : lane, r.node, pool);
+  const Swept t = sweep_tree(lane, count, r.node, pool);
   barrier(CLK_LOCAL_MEM_FENCE);
   pool[SWEEP_WEIGHT + lane] = height;
   pool[SWEEP_KEY + lane] = index;

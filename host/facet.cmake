@@ -52,7 +52,8 @@ function(facet_install)
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/host/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/facet
             FILES_MATCHING PATTERN "*.hpp")
   endforeach()
-  install(FILES ${PROJECT_SOURCE_DIR}/cl/layout.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/facet/cl)
+  install(FILES ${PROJECT_SOURCE_DIR}/cl/layout.h ${PROJECT_SOURCE_DIR}/cl/build_layout.h
+                ${PROJECT_SOURCE_DIR}/cl/structure.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/facet/cl)
   set(config ${CMAKE_INSTALL_LIBDIR}/cmake/facet)
   install(EXPORT facet-targets NAMESPACE facet:: DESTINATION ${config})
   file(WRITE ${PROJECT_BINARY_DIR}/facet-config.cmake

@@ -7,27 +7,23 @@
 namespace facet::tracer {
 namespace {
 
-constexpr std::uint32_t lanes = 32;
-constexpr std::uint32_t pool_words = 788 + 32;  // cl/sweep.h: SWEEP_WORDS; cl/bottom.cl
-
 template <class Primitive>
-std::string options_of(const tuning& t, leaf_rule leaves, std::uint32_t most) {
+std::string options_of(const tuning& t, leaf_rule leaves) {
   return t.flags() + primitive_options(std::is_same_v<Primitive, Box>) +
          " -DLEAF_SURE=" + std::to_string(leaves.sure) +
-         "u -DLEAF_MOST=" + std::to_string(leaves.most) + "u -DMOST=" + std::to_string(most) + "u";
+         "u -DLEAF_MOST=" + std::to_string(leaves.most) + "u";
 }
 
 }  // namespace
 
 template <class Primitive>
 bottoms<Primitive>::bottoms(const runtime::queue& q, const runtime::source_tree& kernels,
-                            const tuning& t, leaf_rule leaves, std::uint32_t most)
+                            const tuning& t, leaf_rule leaves)
     : queue_(q),
-      most_(most),
       is_serial_(t.serial_trees),
       pieces_(t.sort.tiles),
       program_(compiled(q, kernels, t.serial_trees ? "serial_tree.cl" : "bottom.cl",
-                        options_of<Primitive>(t, leaves, most))),
+                        options_of<Primitive>(t, leaves))),
       build_(program_.get_kernel("build_bottoms")) {}
 
 template <class Primitive>
@@ -35,31 +31,30 @@ std::uint32_t bottoms<Primitive>::build(runtime::buffer<Primitive>& primitives,
                                         runtime::buffer<std::uint32_t>& starts,
                                         std::uint32_t subtrees,
                                         runtime::buffer<std::uint32_t>& order, tree_parts& parts,
-                                        std::uint32_t first_node, std::vector<sort_step>& steps) {
+                                        std::uint32_t first_node, std::vector<step>& steps) {
   queue_.submit([&](runtime::handler& h) {
     h.fill(runtime::accessor{counter_, h, runtime::write_only}, first_node);
   });
-  steps.push_back(
-      {"build_bottoms", queue_.submit([&](runtime::handler& h) {
-         const runtime::accessor from{primitives, h, runtime::read_only};
-         const runtime::accessor at{starts, h, runtime::read_only};
-         const runtime::accessor places{order, h, runtime::read_write};
-         const runtime::accessor nodes{parts.nodes, h, runtime::read_write};
-         const runtime::accessor items{parts.items, h, runtime::write_only};
-         const runtime::accessor refs{parts.refs, h, runtime::write_only};
-         const runtime::accessor counter{counter_, h, runtime::read_write};
-         const auto room = std::uint32_t(parts.nodes.size());
-         if (is_serial_) {
-           const std::uint32_t each = (subtrees + pieces_ - 1) / pieces_;
-           h.set_args(from, at, places, nodes, items, refs, counter, room, subtrees, each);
-           h.parallel_for(in_groups((subtrees + each - 1) / each, 1), build_);
-         } else {
-           const runtime::local_accessor<std::uint32_t> pool(pool_words, h);
-           const std::uint32_t each = lanes / most_;
-           h.set_args(from, at, places, nodes, items, refs, counter, room, subtrees, pool);
-           h.parallel_for(in_groups((subtrees + each - 1) / each, lanes), build_);
-         }
-       })});
+  steps.push_back({"build_bottoms", queue_.submit([&](runtime::handler& h) {
+                     const runtime::accessor from{primitives, h, runtime::read_only};
+                     const runtime::accessor at{starts, h, runtime::read_only};
+                     const runtime::accessor places{order, h, runtime::read_write};
+                     const runtime::accessor nodes{parts.nodes, h, runtime::read_write};
+                     const runtime::accessor items{parts.items, h, runtime::write_only};
+                     const runtime::accessor refs{parts.refs, h, runtime::write_only};
+                     const runtime::accessor counter{counter_, h, runtime::read_write};
+                     const auto room = std::uint32_t(parts.nodes.size());
+                     if (is_serial_) {
+                       const std::uint32_t each = (subtrees + pieces_ - 1) / pieces_;
+                       h.set_args(from, at, places, nodes, items, refs, counter, room, subtrees,
+                                  each);
+                       h.parallel_for(in_groups((subtrees + each - 1) / each, 1), build_);
+                     } else {
+                       const runtime::local_accessor<std::uint32_t> pool(FACET_SWEEP_WORDS, h);
+                       h.set_args(from, at, places, nodes, items, refs, counter, room, pool);
+                       h.parallel_for(in_groups(subtrees, FACET_SWEEP_MOST), build_);
+                     }
+                   })});
   const runtime::host_accessor made{counter_, runtime::read_only};
   return made[0];
 }

@@ -7,7 +7,7 @@
 #include "tracer/layout.hpp"
 #include "tracer/leaf_rule.hpp"
 #include "tracer/pack.hpp"
-#include "tracer/sort_way.hpp"
+#include "tracer/step.hpp"
 #include "tracer/tuning.hpp"
 
 namespace facet::tracer {
@@ -23,9 +23,8 @@ struct tree_parts {
 template <class Primitive>
 class bottoms {
  public:
-  /// most: primitives of a subtree, at most; 16 or 32.
   bottoms(const runtime::queue& q, const runtime::source_tree& kernels, const tuning& t,
-          leaf_rule leaves, std::uint32_t most);
+          leaf_rule leaves);
 
   /// order: sorted place -> primitive; becomes leaf place -> primitive. Nodes are appended from
   /// first_node on. Returns the nodes that there are then; where they are more than
@@ -33,13 +32,12 @@ class bottoms {
   std::uint32_t build(runtime::buffer<Primitive>& primitives,
                       runtime::buffer<std::uint32_t>& starts, std::uint32_t subtrees,
                       runtime::buffer<std::uint32_t>& order, tree_parts& parts,
-                      std::uint32_t first_node, std::vector<sort_step>& steps);
+                      std::uint32_t first_node, std::vector<step>& steps);
 
   double compile_ms() const { return program_.build_ms(); }
 
  private:
   runtime::queue queue_;
-  std::uint32_t most_;
   bool is_serial_;
   std::uint32_t pieces_;
   runtime::buffer<std::uint32_t> counter_{1};

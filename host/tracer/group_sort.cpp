@@ -100,11 +100,11 @@ std::uint64_t group_sort<Key>::scratch_bytes(std::uint32_t count, const sort_tun
 }
 
 template <class Key>
-std::vector<sort_step> group_sort<Key>::sort(const sort_request<Key>& r) {
+std::vector<step> group_sort<Key>::sort(const sort_request<Key>& r) {
   const std::uint32_t tile = tile_size(tuning_), tiles = (r.count + tile - 1) / tile;
   hold(keys_, r.count);
   hold(values_, r.count);
-  std::vector<sort_step> steps;
+  std::vector<step> steps;
   if (looks_back_)
     sort_looking_back(r, tiles, steps);
   else
@@ -114,7 +114,7 @@ std::vector<sort_step> group_sort<Key>::sort(const sort_request<Key>& r) {
 
 template <class Key>
 void group_sort<Key>::sort_looking_back(const sort_request<Key>& r, std::uint32_t tiles,
-                                        std::vector<sort_step>& steps) {
+                                        std::vector<step>& steps) {
   for (auto& words : words_) hold(words, std::size_t(tiles) * digits);
   if (!std::exchange(is_clean_, false))
     steps.push_back({"fill", queue_.submit([&](runtime::handler& h) {
@@ -159,7 +159,7 @@ void group_sort<Key>::sort_looking_back(const sort_request<Key>& r, std::uint32_
 
 template <class Key>
 void group_sort<Key>::sort_counting(const sort_request<Key>& r, std::uint32_t tiles,
-                                    std::vector<sort_step>& steps) {
+                                    std::vector<step>& steps) {
   const std::uint32_t length = tiles * digits;
   hold(counts_, length);
   const std::uint32_t chunk = std::max(chunk_least, (length + adders - 1) / adders);

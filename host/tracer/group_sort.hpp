@@ -14,7 +14,7 @@ class group_sort : public sort_way<Key> {
  public:
   group_sort(runtime::queue q, const runtime::source_tree& kernels, const tuning& t);
 
-  std::vector<sort_step> sort(const sort_request<Key>& r) override;
+  std::vector<step> sort(const sort_request<Key>& r) override;
   double compile_ms() const override;
 
   static std::uint64_t scratch_bytes(std::uint32_t count, const sort_tuning& t);
@@ -22,10 +22,8 @@ class group_sort : public sort_way<Key> {
   static std::uint32_t tile_size(const sort_tuning& t);
 
  private:
-  void sort_looking_back(const sort_request<Key>& r, std::uint32_t tiles,
-                         std::vector<sort_step>& steps);
-  void sort_counting(const sort_request<Key>& r, std::uint32_t tiles,
-                     std::vector<sort_step>& steps);
+  void sort_looking_back(const sort_request<Key>& r, std::uint32_t tiles, std::vector<step>& steps);
+  void sort_counting(const sort_request<Key>& r, std::uint32_t tiles, std::vector<step>& steps);
 
   runtime::queue queue_;
   sort_tuning tuning_;

@@ -54,7 +54,7 @@ binary_tree levels_builder::build(runtime::buffer<Box>& boxes, std::uint32_t cou
 
   runtime::buffer<std::uint32_t> codes(count);
   runtime::buffer<Curve> curve(1);
-  std::vector<sort_step> steps;
+  std::vector<step> steps;
   morton_.codes(boxes, curve, codes, count, steps);
   sort_codes_.sort_order(codes, tree.order, count);
 

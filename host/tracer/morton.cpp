@@ -30,7 +30,7 @@ morton<Primitive>::morton(const runtime::queue& q, const runtime::source_tree& k
 template <class Primitive>
 void morton<Primitive>::codes(runtime::buffer<Primitive>& primitives, runtime::buffer<Curve>& curve,
                               runtime::buffer<std::uint32_t>& codes, std::uint32_t count,
-                              std::vector<sort_step>& steps) {
+                              std::vector<step>& steps) {
   const std::uint32_t groups = std::min(most_groups_, (count + group_ - 1) / group_);
   steps.push_back({"partial_bounds", queue_.submit([&](runtime::handler& h) {
                      const runtime::accessor in{primitives, h, runtime::read_only};

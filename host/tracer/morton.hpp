@@ -8,7 +8,7 @@
 #include "runtime/runtime.hpp"
 #include "tracer/layout.hpp"
 #include "tracer/pack.hpp"
-#include "tracer/sort_way.hpp"
+#include "tracer/step.hpp"
 #include "tracer/tuning.hpp"
 
 namespace facet::tracer {
@@ -25,8 +25,7 @@ class morton {
   /// The curve through `count` > 0 primitives, and codes[i] of primitive i: 32 bits, those of the
   /// longest sides first.
   void codes(runtime::buffer<Primitive>& primitives, runtime::buffer<Curve>& curve,
-             runtime::buffer<std::uint32_t>& codes, std::uint32_t count,
-             std::vector<sort_step>& steps);
+             runtime::buffer<std::uint32_t>& codes, std::uint32_t count, std::vector<step>& steps);
 
   double compile_ms() const { return program_.build_ms(); }
 

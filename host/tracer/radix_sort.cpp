@@ -23,21 +23,21 @@ radix_sort<Key>::radix_sort(runtime::queue q, const runtime::source_tree& kernel
     : way_(way_of<Key>(q, kernels, t)) {}
 
 template <class Key>
-std::vector<sort_step> radix_sort<Key>::sort(runtime::buffer<Key>& keys,
-                                             runtime::buffer<std::uint32_t>& values,
-                                             std::uint32_t count, unsigned bits) {
+std::vector<step> radix_sort<Key>::sort(runtime::buffer<Key>& keys,
+                                        runtime::buffer<std::uint32_t>& values, std::uint32_t count,
+                                        unsigned bits) {
   return sort({keys, values, count, bits, false});
 }
 
 template <class Key>
-std::vector<sort_step> radix_sort<Key>::sort_order(runtime::buffer<Key>& keys,
-                                                   runtime::buffer<std::uint32_t>& values,
-                                                   std::uint32_t count, unsigned bits) {
+std::vector<step> radix_sort<Key>::sort_order(runtime::buffer<Key>& keys,
+                                              runtime::buffer<std::uint32_t>& values,
+                                              std::uint32_t count, unsigned bits) {
   return sort({keys, values, count, bits, true});
 }
 
 template <class Key>
-std::vector<sort_step> radix_sort<Key>::sort(const sort_request<Key>& r) {
+std::vector<step> radix_sort<Key>::sort(const sort_request<Key>& r) {
   const auto refuse = [](const std::string& why) {
     throw runtime::exception(runtime::errc::invalid, "a radix sort " + why);
   };

@@ -24,14 +24,13 @@ class radix_sort {
   /// elements when this returns: use the references. Nothing is waited for. Throws errc::invalid
   /// for more than most_keys keys, for bits that are 0 or more than a key's, for buffers that hold
   /// less.
-  std::vector<sort_step> sort(runtime::buffer<Key>& keys, runtime::buffer<std::uint32_t>& values,
-                              std::uint32_t count, unsigned bits = 8 * sizeof(Key));
+  std::vector<step> sort(runtime::buffer<Key>& keys, runtime::buffer<std::uint32_t>& values,
+                         std::uint32_t count, unsigned bits = 8 * sizeof(Key));
 
   /// The same with values that start as 0, 1, 2, ...: what the buffer holds is not read. values[i]
   /// is then where the i-th of the sorted keys was.
-  std::vector<sort_step> sort_order(runtime::buffer<Key>& keys,
-                                    runtime::buffer<std::uint32_t>& values, std::uint32_t count,
-                                    unsigned bits = 8 * sizeof(Key));
+  std::vector<step> sort_order(runtime::buffer<Key>& keys, runtime::buffer<std::uint32_t>& values,
+                               std::uint32_t count, unsigned bits = 8 * sizeof(Key));
 
   /// Bytes of device memory, at most, that a sort of `count` keys keeps beside keys and values.
   static std::uint64_t scratch_bytes(std::uint32_t count, const sort_tuning& t);
@@ -39,7 +38,7 @@ class radix_sort {
   double compile_ms() const { return way_->compile_ms(); }
 
  private:
-  std::vector<sort_step> sort(const sort_request<Key>& r);
+  std::vector<step> sort(const sort_request<Key>& r);
 
   std::unique_ptr<sort_way<Key>> way_;
 };

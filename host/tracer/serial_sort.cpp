@@ -60,7 +60,7 @@ std::uint64_t serial_sort<Key>::scratch_bytes(std::uint32_t count, const sort_tu
 }
 
 template <class Key>
-std::vector<sort_step> serial_sort<Key>::sort(const sort_request<Key>& r) {
+std::vector<step> serial_sort<Key>::sort(const sort_request<Key>& r) {
   const unsigned passes = passes_of(r.bits), width = (r.bits + passes - 1) / passes;
   cut c{};
   c.passes = passes;
@@ -69,7 +69,7 @@ std::vector<sort_step> serial_sort<Key>::sort(const sort_request<Key>& r) {
   hold(counts_, std::size_t(c.tiles) * digits);
   hold(records_[0], r.count);
   if (passes > 2) hold(records_[1], r.count);
-  std::vector<sort_step> steps;
+  std::vector<step> steps;
   for (c.pass = 0; c.pass < passes; ++c.pass) {
     c.shift = c.pass * width;
     c.mask = (1u << std::min(width, r.bits - c.shift)) - 1;
@@ -80,8 +80,7 @@ std::vector<sort_step> serial_sort<Key>::sort(const sort_request<Key>& r) {
 }
 
 template <class Key>
-void serial_sort<Key>::count(const sort_request<Key>& r, const cut& c,
-                             std::vector<sort_step>& steps) {
+void serial_sort<Key>::count(const sort_request<Key>& r, const cut& c, std::vector<step>& steps) {
   steps.push_back({"count", queue_.submit([&](runtime::handler& h) {
                      const runtime::accessor counts{counts_, h, runtime::write_only};
                      const auto launch = [&](const auto& from, const runtime::kernel& kernel) {
@@ -102,8 +101,7 @@ void serial_sort<Key>::count(const sort_request<Key>& r, const cut& c,
 }
 
 template <class Key>
-void serial_sort<Key>::scatter(const sort_request<Key>& r, const cut& c,
-                               std::vector<sort_step>& steps) {
+void serial_sort<Key>::scatter(const sort_request<Key>& r, const cut& c, std::vector<step>& steps) {
   steps.push_back({"scatter", queue_.submit([&](runtime::handler& h) {
                      const runtime::accessor places{counts_, h, runtime::read_only};
                      if (c.is_first()) {

@@ -12,7 +12,7 @@ class serial_sort : public sort_way<Key> {
  public:
   serial_sort(runtime::queue q, const runtime::source_tree& kernels, const tuning& t);
 
-  std::vector<sort_step> sort(const sort_request<Key>& r) override;
+  std::vector<step> sort(const sort_request<Key>& r) override;
   double compile_ms() const override { return program_.build_ms(); }
 
   static std::uint64_t scratch_bytes(std::uint32_t count, const sort_tuning& t);
@@ -25,8 +25,8 @@ class serial_sort : public sort_way<Key> {
     std::uint32_t value;
   };
   struct cut;
-  void count(const sort_request<Key>& r, const cut& c, std::vector<sort_step>& steps);
-  void scatter(const sort_request<Key>& r, const cut& c, std::vector<sort_step>& steps);
+  void count(const sort_request<Key>& r, const cut& c, std::vector<step>& steps);
+  void scatter(const sort_request<Key>& r, const cut& c, std::vector<step>& steps);
 
   runtime::queue queue_;
   sort_tuning tuning_;

@@ -5,15 +5,10 @@
 #include <vector>
 
 #include "runtime/runtime.hpp"
+#include "tracer/step.hpp"
 #include "tracer/tuning.hpp"
 
 namespace facet::tracer {
-
-/// A command of a sort, for who wants to know its time.
-struct sort_step {
-  const char* kernel;
-  runtime::event done;
-};
 
 /// What a sort is asked for.
 template <class Key>
@@ -30,14 +25,8 @@ template <class Key>
 class sort_way {
  public:
   virtual ~sort_way() = default;
-  virtual std::vector<sort_step> sort(const sort_request<Key>& r) = 0;
+  virtual std::vector<step> sort(const sort_request<Key>& r) = 0;
   virtual double compile_ms() const = 0;
 };
-
-/// Room for `count` elements: what there is, or new.
-template <class T>
-void hold(runtime::buffer<T>& b, std::size_t count) {
-  if (b.size() < count) b = runtime::buffer<T>(count);
-}
 
 }  // namespace facet::tracer

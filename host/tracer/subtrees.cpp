@@ -5,22 +5,19 @@
 
 namespace facet::tracer {
 
-subtrees::subtrees(const runtime::queue& q, const runtime::source_tree& kernels, const tuning& t,
-                   std::uint32_t most)
+subtrees::subtrees(const runtime::queue& q, const runtime::source_tree& kernels, const tuning& t)
     : queue_(q),
       group_(t.list_group),
       each_(t.list_each),
       scan_group_(t.scan_group),
-      most_(most),
       program_(compiled(q, kernels, "subtrees.cl",
-                        t.flags() + " -DMOST=" + std::to_string(most) +
-                            " -DEACH=" + std::to_string(t.list_each) + "u")),
+                        t.flags() + " -DEACH=" + std::to_string(t.list_each) + "u")),
       mark_(program_.get_kernel("mark_subtrees")),
       scan_(program_.get_kernel("scan_tiles")),
       list_(program_.get_kernel("list_subtrees")) {}
 
 std::uint32_t subtrees::list(runtime::buffer<std::uint32_t>& codes, std::uint32_t count,
-                             std::vector<sort_step>& steps) {
+                             std::vector<step>& steps) {
   const std::uint32_t tile = each_ * group_, words = tile / 32;
   const std::uint32_t tiles = (count + tile - 1) / tile;
   hold(counts_, tiles);
@@ -29,7 +26,8 @@ std::uint32_t subtrees::list(runtime::buffer<std::uint32_t>& codes, std::uint32_
                      const runtime::accessor in{codes, h, runtime::read_only};
                      const runtime::accessor marks{marks_, h, runtime::write_only};
                      const runtime::accessor out{counts_, h, runtime::write_only};
-                     const runtime::local_accessor<std::uint8_t> common(tile + 2 * most_, h);
+                     const runtime::local_accessor<std::uint8_t> common(tile + 2 * FACET_SWEEP_MOST,
+                                                                        h);
                      const runtime::local_accessor<std::uint32_t> bits(words, h);
                      h.set_args(in, marks, out, count, common, bits);
                      h.parallel_for(in_groups(tiles, group_), mark_);

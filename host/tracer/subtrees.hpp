@@ -1,32 +1,30 @@
-// Where the largest subtrees of a radix tree begin that have at most so many places
+// Where the largest subtrees of a radix tree begin that have at most FACET_SWEEP_MOST places
 // (cl/subtrees.cl).
 #pragma once
 
 #include <cstdint>
 
 #include "runtime/runtime.hpp"
-#include "tracer/sort_way.hpp"
+#include "tracer/step.hpp"
 #include "tracer/tuning.hpp"
 
 namespace facet::tracer {
 
 class subtrees {
  public:
-  /// most: places of a subtree, at most.
-  subtrees(const runtime::queue& q, const runtime::source_tree& kernels, const tuning& t,
-           std::uint32_t most);
+  subtrees(const runtime::queue& q, const runtime::source_tree& kernels, const tuning& t);
 
   /// Lists them for `count` > 0 sorted codes and returns how many there are: subtree k has the
   /// places starts()[k] to starts()[k + 1] - 1. Waits for the device.
   std::uint32_t list(runtime::buffer<std::uint32_t>& codes, std::uint32_t count,
-                     std::vector<sort_step>& steps);
+                     std::vector<step>& steps);
   runtime::buffer<std::uint32_t>& starts() { return starts_; }
 
   double compile_ms() const { return program_.build_ms(); }
 
  private:
   runtime::queue queue_;
-  std::uint32_t group_, each_, scan_group_, most_;
+  std::uint32_t group_, each_, scan_group_;
   runtime::buffer<std::uint32_t> marks_{1}, counts_{1}, starts_{1}, total_{1};
   runtime::program program_;
   runtime::kernel mark_, scan_, list_;

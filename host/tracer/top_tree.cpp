@@ -9,10 +9,6 @@
 namespace facet::tracer {
 namespace {
 
-// As in cl/top.cl, cl/bin_split.h and cl/sweep.h.
-constexpr std::uint32_t group = 256, tile_items = 1024, totals = 512, level_words = 2;
-constexpr std::uint32_t bin_words = 3 * 16 * 8, split_words = bin_words + 48 + 4 + 16;
-constexpr std::uint32_t swept = 32, sweep_words = 788;
 constexpr std::uint32_t large = 4096;  ///< items that one group does not split alone
 
 /// Levels at which ranges may be large, if splits are not too uneven; it costs time alone if some
@@ -22,11 +18,11 @@ std::uint32_t tiled_levels(std::uint32_t count) {
 }
 /// Ranges that are split at a level, at most.
 std::uint32_t most_ranges(std::uint32_t count, std::uint32_t level) {
-  const std::uint32_t all = count / (swept + 1) + 1;
+  const std::uint32_t all = count / (FACET_SWEEP_MOST + 1) + 1;
   return level < 31 ? std::min(1u << level, all) : all;
 }
 std::uint32_t most_tiles(std::uint32_t count, std::uint32_t level) {
-  return count / tile_items + most_ranges(count, level);
+  return count / FACET_TILE_ITEMS + most_ranges(count, level);
 }
 
 template <class T>
@@ -68,29 +64,31 @@ std::uint64_t top_tree::scratch_bytes(std::uint64_t items) {
   const std::uint32_t tiled = tiled_levels(count);
   const std::uint64_t ranges = most_ranges(count, 31), tiled_ranges = most_ranges(count, tiled);
   return items * sizeof(Item) + (count / 2 + 1) * sizeof(TopRange) + 2 * ranges * sizeof(TopRange) +
-         2 * tiled_ranges * (sizeof(TopSides) + 4 * bin_words) + 16 * most_tiles(count, tiled);
+         2 * tiled_ranges * (sizeof(TopSides) + 4 * FACET_ALL_BIN_WORDS) +
+         16 * most_tiles(count, tiled);
 }
 
 std::uint32_t top_tree::build(runtime::buffer<Curve>& curve, tree_parts& parts, std::uint32_t count,
-                              std::vector<sort_step>& steps) {
+                              std::vector<step>& steps) {
   if (is_serial_) return build_serial(curve, parts, count, steps);
   hold_room(count);
   const std::uint32_t tiled = tiled_levels(count);
   start(curve, count, tiled > 0, steps);
   // So many levels there are if all splits are even, and some more; then one asks.
   std::uint32_t level = 0;
-  std::uint32_t levels = count <= swept ? 0 : std::uint32_t(std::bit_width(count / swept)) + 3;
+  std::uint32_t levels =
+      count <= FACET_SWEEP_MOST ? 0 : std::uint32_t(std::bit_width(count / FACET_SWEEP_MOST)) + 3;
   for (;;) {
     for (; level < levels; ++level)
       if (level < tiled)
         split_tiles(parts, count, level, level + 1 < tiled, steps);
       else
         split_level(parts, count, level, steps);
-    if (level == 0 || told(level_words * level) == 0) break;
+    if (level == 0 || told(FACET_LEVEL_WORDS * level) == 0) break;
     levels += 4;
   }
-  finish(parts, told(totals), steps);
-  return told(totals + 1);
+  finish(parts, told(FACET_TOTALS), steps);
+  return told(FACET_TOTALS + 1);
 }
 
 std::uint32_t top_tree::told(std::uint32_t counter) {
@@ -99,7 +97,7 @@ std::uint32_t top_tree::told(std::uint32_t counter) {
 }
 
 std::uint32_t top_tree::build_serial(runtime::buffer<Curve>& curve, tree_parts& parts,
-                                     std::uint32_t count, std::vector<sort_step>& steps) {
+                                     std::uint32_t count, std::vector<step>& steps) {
   hold(counters_, 2);
   steps.push_back({"build_top", queue_.submit([&](runtime::handler& h) {
                      const runtime::accessor items{parts.items, h, runtime::read_write};
@@ -115,17 +113,17 @@ std::uint32_t top_tree::build_serial(runtime::buffer<Curve>& curve, tree_parts& 
 
 void top_tree::hold_room(std::uint32_t count) {
   const std::uint32_t tiled = tiled_levels(count), tiled_ranges = most_ranges(count, tiled);
-  hold(counters_, totals + 2);
+  hold(counters_, FACET_TOTALS + 2);
   hold_both(ranges_, most_ranges(count, 31));
   hold_both(sides_, tiled_ranges);
   hold_both(tiles_, 2 * std::size_t(most_tiles(count, tiled)));
-  hold_both(bins_, std::size_t(tiled_ranges) * bin_words);
+  hold_both(bins_, std::size_t(tiled_ranges) * FACET_ALL_BIN_WORDS);
   hold(small_, count / 2 + 1);
   hold(moved_, count);
 }
 
 void top_tree::start(runtime::buffer<Curve>& curve, std::uint32_t count, std::uint32_t is_tiled,
-                     std::vector<sort_step>& steps) {
+                     std::vector<step>& steps) {
   steps.push_back({"start_top", queue_.submit([&](runtime::handler& h) {
                      const runtime::accessor along{curve, h, runtime::read_only};
                      const runtime::accessor ranges{ranges_[0], h, runtime::write_only};
@@ -136,23 +134,23 @@ void top_tree::start(runtime::buffer<Curve>& curve, std::uint32_t count, std::ui
                      const runtime::accessor counters{counters_, h, runtime::read_write};
                      h.set_args(along, ranges, tiles, sides, bins, small, counters, count,
                                 is_tiled);
-                     h.parallel_for(in_groups(1, group), *start_);
+                     h.parallel_for(in_groups(1, FACET_TOP_GROUP), *start_);
                    })});
 }
 
 void top_tree::split_tiles(tree_parts& parts, std::uint32_t count, std::uint32_t level,
-                           std::uint32_t is_tiled, std::vector<sort_step>& steps) {
+                           std::uint32_t is_tiled, std::vector<step>& steps) {
   const std::uint32_t now = level % 2, next = 1 - now;
   auto& from = now == 0 ? parts.items : moved_;
   auto& to = now == 0 ? moved_ : parts.items;
-  const auto groups = in_groups(most_tiles(count, level), group);
+  const auto groups = in_groups(most_tiles(count, level), FACET_TOP_GROUP);
   steps.push_back({"bin_tiles", queue_.submit([&](runtime::handler& h) {
                      const runtime::accessor items{from, h, runtime::read_only};
                      const runtime::accessor ranges{ranges_[now], h, runtime::read_only};
                      const runtime::accessor tiles{tiles_[now], h, runtime::read_only};
                      const runtime::accessor bins{bins_[now], h, runtime::read_write};
                      const runtime::accessor counters{counters_, h, runtime::read_only};
-                     const runtime::local_accessor<std::uint32_t> own(bin_words, h);
+                     const runtime::local_accessor<std::uint32_t> own(FACET_ALL_BIN_WORDS, h);
                      h.set_args(items, ranges, tiles, bins, counters, level, own);
                      h.parallel_for(groups, *bin_);
                    })});
@@ -164,7 +162,7 @@ void top_tree::split_tiles(tree_parts& parts, std::uint32_t count, std::uint32_t
                      const runtime::accessor bins{bins_[now], h, runtime::read_only};
                      const runtime::accessor sides{sides_[now], h, runtime::read_write};
                      const runtime::accessor counters{counters_, h, runtime::read_only};
-                     const runtime::local_accessor<std::uint32_t> pool(split_words, h);
+                     const runtime::local_accessor<std::uint32_t> pool(FACET_SPLIT_WORDS, h);
                      h.set_args(items, moved, ranges, tiles, bins, sides, counters, level, pool);
                      h.parallel_for(groups, *move_);
                    })});
@@ -187,7 +185,7 @@ void top_tree::split_tiles(tree_parts& parts, std::uint32_t count, std::uint32_t
 }
 
 void top_tree::split_level(tree_parts& parts, std::uint32_t count, std::uint32_t level,
-                           std::vector<sort_step>& steps) {
+                           std::vector<step>& steps) {
   const std::uint32_t now = level % 2, next = 1 - now;
   auto& from = now == 0 ? parts.items : moved_;
   auto& to = now == 0 ? moved_ : parts.items;
@@ -200,14 +198,14 @@ void top_tree::split_level(tree_parts& parts, std::uint32_t count, std::uint32_t
                      const runtime::accessor nodes{parts.nodes, h, runtime::read_write};
                      const runtime::accessor refs{parts.refs, h, runtime::read_only};
                      const runtime::accessor counters{counters_, h, runtime::read_write};
-                     const runtime::local_accessor<std::uint32_t> pool(split_words, h);
+                     const runtime::local_accessor<std::uint32_t> pool(FACET_SPLIT_WORDS, h);
                      h.set_args(items, moved, ranges, next_ranges, small, nodes, refs, counters,
                                 level, pool);
                      h.parallel_for(in_groups(most_ranges(count, level), split_group_), *split_);
                    })});
 }
 
-void top_tree::finish(tree_parts& parts, std::uint32_t ranges, std::vector<sort_step>& steps) {
+void top_tree::finish(tree_parts& parts, std::uint32_t ranges, std::vector<step>& steps) {
   if (ranges == 0) return;
   steps.push_back({"finish_ranges", queue_.submit([&](runtime::handler& h) {
                      const runtime::accessor even{parts.items, h, runtime::read_only};
@@ -216,9 +214,9 @@ void top_tree::finish(tree_parts& parts, std::uint32_t ranges, std::vector<sort_
                      const runtime::accessor nodes{parts.nodes, h, runtime::read_write};
                      const runtime::accessor refs{parts.refs, h, runtime::read_only};
                      const runtime::accessor counters{counters_, h, runtime::read_write};
-                     const runtime::local_accessor<std::uint32_t> pool(sweep_words, h);
+                     const runtime::local_accessor<std::uint32_t> pool(FACET_SWEEP_WORDS, h);
                      h.set_args(even, odd, small, nodes, refs, counters, pool);
-                     h.parallel_for(in_groups(ranges, swept), *finish_);
+                     h.parallel_for(in_groups(ranges, FACET_SWEEP_MOST), *finish_);
                    })});
 }
 

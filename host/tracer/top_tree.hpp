@@ -17,23 +17,23 @@ class top_tree {
   /// Writes parts.nodes[0 .. count - 2], the root first; count > 1 items, whose order is lost.
   /// Returns the nodes on the longest way down, those of the items included. Waits for the device.
   std::uint32_t build(runtime::buffer<Curve>& curve, tree_parts& parts, std::uint32_t count,
-                      std::vector<sort_step>& steps);
+                      std::vector<step>& steps);
 
   static std::uint64_t scratch_bytes(std::uint64_t count);
   double compile_ms() const { return program_.build_ms(); }
 
  private:
   std::uint32_t build_serial(runtime::buffer<Curve>& curve, tree_parts& parts, std::uint32_t count,
-                             std::vector<sort_step>& steps);
+                             std::vector<step>& steps);
   std::uint32_t told(std::uint32_t counter);
   void hold_room(std::uint32_t count);
   void start(runtime::buffer<Curve>& curve, std::uint32_t count, std::uint32_t is_tiled,
-             std::vector<sort_step>& steps);
+             std::vector<step>& steps);
   void split_tiles(tree_parts& parts, std::uint32_t count, std::uint32_t level,
-                   std::uint32_t is_tiled, std::vector<sort_step>& steps);
+                   std::uint32_t is_tiled, std::vector<step>& steps);
   void split_level(tree_parts& parts, std::uint32_t count, std::uint32_t level,
-                   std::vector<sort_step>& steps);
-  void finish(tree_parts& parts, std::uint32_t ranges, std::vector<sort_step>& steps);
+                   std::vector<step>& steps);
+  void finish(tree_parts& parts, std::uint32_t ranges, std::vector<step>& steps);
 
   runtime::queue queue_;
   bool is_serial_;

@@ -180,10 +180,11 @@ device_geometry build_geometry(runtime::queue& q, const runtime::source_tree& ke
     g.nodes_used += top->node_count;
     const runtime::host_accessor order{top->order, runtime::read_only};
     std::vector<Instance> sorted;
-    for (std::size_t i = 0; i < placed.size(); ++i) sorted.push_back(placed[order[i]]);
     std::vector<std::uint32_t> meshes;
-    for (std::size_t i = 0; i < placed.size(); ++i)
+    for (std::size_t i = 0; i < placed.size(); ++i) {
+      sorted.push_back(placed[order[i]]);
       meshes.push_back(packed.instance_meshes[order[i]]);
+    }
     placed = std::move(sorted);
     packed.instance_meshes = std::move(meshes);
   }

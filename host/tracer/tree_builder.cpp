@@ -8,8 +8,6 @@
 namespace facet::tracer {
 namespace {
 
-constexpr std::uint32_t subtree_most = 32;
-
 /// Nodes that trees are expected to have at most: 0.62 a primitive was never reached where leaves
 /// hold two or more (bunny 0.55, terrain 0.53, soup 0.60). A tree that has more is built again.
 std::uint32_t usual_nodes(std::uint32_t count, leaf_rule leaves) {
@@ -26,8 +24,8 @@ struct tree_builder<Primitive>::parts {
         leaf_rule leaves)
       : morton_codes(q, kernels, t),
         sort(q, kernels, t),
-        cut(q, kernels, t, subtree_most),
-        bottom(q, kernels, t, leaves, subtree_most),
+        cut(q, kernels, t),
+        bottom(q, kernels, t, leaves),
         top(q, kernels, t) {}
 
   morton<Primitive> morton_codes;
@@ -76,7 +74,7 @@ void tree_builder<Primitive>::try_build(runtime::buffer<Primitive>& primitives, 
   steps_.clear();
   hold(p.codes, count);
   p.morton_codes.codes(primitives, p.curve, p.codes, count, steps_);
-  for (sort_step& s : p.sort.sort_order(p.codes, t.order, count)) steps_.push_back(std::move(s));
+  for (step& s : p.sort.sort_order(p.codes, t.order, count)) steps_.push_back(std::move(s));
   const std::uint32_t found = p.cut.list(p.codes, count, steps_);
   hold(p.items, found);
   hold(p.refs, found);

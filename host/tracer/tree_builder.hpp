@@ -36,7 +36,7 @@ class tree_builder {
   static std::uint64_t scratch_bytes(std::uint64_t count);
 
   /// The commands of the last build.
-  const std::vector<sort_step>& steps() const { return steps_; }
+  const std::vector<step>& steps() const { return steps_; }
   double compile_ms() const;
 
  private:
@@ -44,7 +44,7 @@ class tree_builder {
   void try_build(runtime::buffer<Primitive>& primitives, std::uint32_t count, node_tree& t);
 
   leaf_rule leaves_;
-  std::vector<sort_step> steps_;
+  std::vector<step> steps_;
   std::unique_ptr<parts> parts_;
 };
 

@@ -24,16 +24,6 @@ given_tree sah_tree_of(const mesh& m, unsigned leaf_size) {
   return given;
 }
 
-std::vector<texel> corners_of(const mesh& m) {
-  std::vector<texel> corners;
-  for (std::uint32_t t = 0; t < m.triangle_count(); ++t)
-    for (int k = 0; k < 3; ++k) {
-      const vec3f p = m.position(t, k);
-      corners.push_back({p.x, p.y, p.z, 0});
-    }
-  return corners;
-}
-
 bool same_bits(const hit& a, const hit& b) { return std::memcmp(&a, &b, sizeof(hit)) == 0; }
 
 }  // namespace
@@ -56,7 +46,7 @@ TEST_CASE("hits do not depend on whose tree leads to them, in either layout") {
 
 TEST_CASE("a given tree becomes a builder's: nodes by position, exact boxes, heights") {
   const mesh m = test::random_soup(100, 2);
-  const auto corners = corners_of(m);
+  const auto corners = test::corners_of(m);
   const given_tree given = sah_tree_of(m, 7);
   const host_binary_tree t = binary_of(given, corners);
   CHECK(t.order == given.order);
@@ -79,7 +69,7 @@ TEST_CASE("a given tree becomes a builder's: nodes by position, exact boxes, hei
 
 TEST_CASE("what is not a tree over the mesh is refused") {
   const mesh m = test::random_soup(4, 2);
-  const auto corners = corners_of(m);
+  const auto corners = test::corners_of(m);
   const given_tree right{{{1, 0}, {0, 2}, {2, 2}}, {3, 1, 0, 2}};
   CHECK(binary_of(right, corners).depth == 2);
   const auto refused = [&](given_tree t) {

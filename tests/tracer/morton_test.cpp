@@ -24,7 +24,7 @@ std::vector<std::uint32_t> codes_of(const std::vector<Primitive>& primitives, st
   runtime::buffer<Primitive> in(primitives.data(), primitives.size());
   runtime::buffer<Curve> curve(1);
   runtime::buffer<std::uint32_t> out(n);
-  std::vector<sort_step> steps;
+  std::vector<step> steps;
   m.codes(in, curve, out, n, steps);
   return test::content(out);
 }

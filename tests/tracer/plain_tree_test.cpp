@@ -22,16 +22,6 @@ traced_trees read(const scene& s, layout_kind layout, std::span<const given_tree
   return device_scene(test::queue(), s, o, given).read_trees();
 }
 
-std::vector<texel> corners_of(const mesh& m) {
-  std::vector<texel> corners;
-  for (std::uint32_t t = 0; t < m.triangle_count(); ++t)
-    for (int k = 0; k < 3; ++k) {
-      const vec3f p = m.position(t, k);
-      corners.push_back({p.x, p.y, p.z, 0});
-    }
-  return corners;
-}
-
 bool holds(const box3f& outer, const box3f& inner) {
   return min(outer.lo, inner.lo) == outer.lo && max(outer.hi, inner.hi) == outer.hi;
 }
@@ -83,7 +73,7 @@ TEST_CASE("as traced: each triangle is in one leaf, and every node holds what is
       const traced_trees t = read(s, layout);
       REQUIRE(t.meshes.size() == 1);
       CHECK(t.top.nodes.empty());
-      check_tree(t.meshes[0], boxes_of(corners_of(s.meshes[0])));
+      check_tree(t.meshes[0], boxes_of(test::corners_of(s.meshes[0])));
     }
 }
 
@@ -110,7 +100,7 @@ TEST_CASE("as traced: several meshes in the scene's order, and the tree over ins
     const traced_trees t = read(s, layout);
     REQUIRE(t.meshes.size() == 2);
     for (std::size_t k = 0; k < 2; ++k)
-      check_tree(t.meshes[k], boxes_of(corners_of(s.meshes[k + 1])));
+      check_tree(t.meshes[k], boxes_of(test::corners_of(s.meshes[k + 1])));
     const packed_scene packed = pack(s, false);
     std::vector<box3f> boxes(s.instances.size());
     for (const Instance& i : packed.instances)
@@ -121,7 +111,7 @@ TEST_CASE("as traced: several meshes in the scene's order, and the tree over ins
 
 TEST_CASE("as built: a binary tree with one triangle a leaf, the device's and a caller's") {
   const mesh m = test::random_soup(300, 2);
-  const auto corners = corners_of(m);
+  const auto corners = test::corners_of(m);
   const given_tree given{{{1, 0}, {0, 100}, {3, 0}, {100, 150}, {250, 50}}, [] {
                            std::vector<std::uint32_t> order(300);
                            for (std::uint32_t i = 0; i < 300; ++i) order[i] = 299 - i;

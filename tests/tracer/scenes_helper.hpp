@@ -6,6 +6,7 @@
 
 #include "scene/generate.hpp"
 #include "scene/scene.hpp"
+#include "tracer/pack.hpp"
 #include "tracer/random_helper.hpp"
 #include "tracer/tracer.hpp"
 
@@ -31,6 +32,17 @@ inline scene one_mesh(mesh m) {
   s.ambient = {0.1f, 0.1f, 0.1f};
   s.view.position = {2.5, 1.5, 3};
   return s;
+}
+
+/// As packed: three texels a triangle.
+inline std::vector<tracer::texel> corners_of(const mesh& m) {
+  std::vector<tracer::texel> corners;
+  for (std::uint32_t t = 0; t < m.triangle_count(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const vec3f p = m.position(t, k);
+      corners.push_back({p.x, p.y, p.z, 0});
+    }
+  return corners;
 }
 
 /// Triangles that meet only at random: n of them, of half a unit.
