@@ -15,7 +15,7 @@
 //
 // The pad of 24 u E, with E the largest |origin| + |face| of any axis and u = 2^-24, covers the
 // rounding here (inv, o * inv, both offsets, the fma: 4u|o| + 2u|face|), that of the triangle test
-// (19u E) and the change of directions that are nearly 0 below. It is absolute in space: a relative
+// (18u E) and the change of directions that are nearly 0 below. It is absolute in space: a relative
 // one loses hits on edges that lie in a box's face while their ends are far from the ray.
 #ifndef FACET_BOX_H
 #define FACET_BOX_H
@@ -66,7 +66,7 @@ static inline Interval box_interval(const Slabs s, float3 lo, float3 hi) {
   return i;
 }
 
-// Where in a node the sides stand that a ray meets first, of each axis: in floats.
+// Which side of a node's children the ray meets first, of each axis: the floats to skip, 0 or FACET_SIDE.
 #define FACET_SIDE ((uint)(sizeof(Each) / sizeof(float)))
 typedef struct {
   uint x, y, z;
@@ -75,25 +75,39 @@ typedef struct {
 static inline Sides near_sides(const Slabs s) {
   Sides n;
   n.x = s.inverse.x > 0.0f ? 0u : FACET_SIDE;
-  n.y = s.inverse.y > 0.0f ? 2u * FACET_SIDE : 3u * FACET_SIDE;
-  n.z = s.inverse.z > 0.0f ? 4u * FACET_SIDE : 5u * FACET_SIDE;
+  n.y = s.inverse.y > 0.0f ? 0u : FACET_SIDE;
+  n.z = s.inverse.z > 0.0f ? 0u : FACET_SIDE;
   return n;
 }
 
-static inline Each crossed_at(__global const float* face, float inverse, float offset) {
-  return fma(*(__global const Each*)face, (Each)(inverse), (Each)(offset));
+// The two sides of an axis, the one met first first. A GPU's time goes by loads more than by bytes: two
+// children's sides are one, and then chosen from.
+static inline void read_sides(__global const float* axis, uint near_at, Each* near, Each* far) {
+#ifdef FACET_WIDE
+  *near = *(__global const Each*)(axis + near_at);
+  *far = *(__global const Each*)(axis + (FACET_SIDE - near_at));
+#else
+  const float4 both = *(__global const float4*)axis;
+  *near = near_at == 0u ? both.lo : both.hi;
+  *far = near_at == 0u ? both.hi : both.lo;
+#endif
+}
+
+static inline Each crossed_at(Each face, float inverse, float offset) {
+  return fma(face, (Each)(inverse), (Each)(offset));
 }
 
 // The intervals of a node's children, cut to tmin and best: child c must be visited exactly
 // where near c <= far c. `faces` are the node's six sides in order.
 static inline void child_intervals(const Slabs s, const Sides near_at, __global const float* faces,
                                    float tmin, float best, Each* near, Each* far) {
-  const Each nx = crossed_at(faces + near_at.x, s.inverse.x, s.near_offset.x);
-  const Each ny = crossed_at(faces + near_at.y, s.inverse.y, s.near_offset.y);
-  const Each nz = crossed_at(faces + near_at.z, s.inverse.z, s.near_offset.z);
-  const Each fx = crossed_at(faces + (FACET_SIDE - near_at.x), s.inverse.x, s.far_offset.x);
-  const Each fy = crossed_at(faces + (5u * FACET_SIDE - near_at.y), s.inverse.y, s.far_offset.y);
-  const Each fz = crossed_at(faces + (9u * FACET_SIDE - near_at.z), s.inverse.z, s.far_offset.z);
+  Each nx, fx, ny, fy, nz, fz;
+  read_sides(faces, near_at.x, &nx, &fx);
+  read_sides(faces + 2u * FACET_SIDE, near_at.y, &ny, &fy);
+  read_sides(faces + 4u * FACET_SIDE, near_at.z, &nz, &fz);
+  nx = crossed_at(nx, s.inverse.x, s.near_offset.x), fx = crossed_at(fx, s.inverse.x, s.far_offset.x);
+  ny = crossed_at(ny, s.inverse.y, s.near_offset.y), fy = crossed_at(fy, s.inverse.y, s.far_offset.y);
+  nz = crossed_at(nz, s.inverse.z, s.near_offset.z), fz = crossed_at(fz, s.inverse.z, s.far_offset.z);
   const Each x = FACET_CULL_MAX(nx, (Each)(tmin)), a = FACET_CULL_MIN(fx, (Each)(best));
   const Each y = FACET_CULL_MAX(ny, x), b = FACET_CULL_MIN(fy, a);
   *near = FACET_CULL_MAX(nz, y);

@@ -77,8 +77,8 @@ static inline Points relative(const Space* s, Triangles t, int corner) {
 // The same, sheared so that the ray is the z axis from the origin on.
 static inline Points sheared(const Space* s, Triangles t, int corner) {
   Points a = relative(s, t, corner);
-  a.x = a.x - s->shear.x * a.z;
-  a.y = a.y - s->shear.y * a.z;
+  a.x = fma(in_all(-s->shear.x), a.z, a.x);
+  a.y = fma(in_all(-s->shear.y), a.z, a.y);
   a.z = s->unit * a.z;
   return a;
 }
@@ -144,10 +144,10 @@ static inline Mask hold_to_boxes(const Space* s, Triangles p, Interval outer, Re
 //
 // It does so by itself, unless an underflow or an instance's maps come between. With u, v, w as they
 // come out, each within 2u of the edge function of the sheared corners, b = u / (u+v+w) and so on are
-// shares of a point P of the triangle, in its box. The sheared corners are off by 6u E, and their mean
-// by these shares would be 0 but for 4u E, by the identity of the edge functions: P lies within 10u E
+// shares of a point P of the triangle, in its box. The sheared corners are off by 5u E, and their mean
+// by these shares would be 0 but for 4u E, by the identity of the edge functions: P lies within 9u E
 // of the ray where P's distance along the main axis is t. t itself is off by 9u E (each z by u, the sum
-// and its quotient by 6u, 1 / d_z and its product by 2u). The slabs are off by 4u E: together 23u E, on
+// and its quotient by 6u, 1 / d_z and its product by 2u). The slabs are off by 4u E: together 22u E, on
 // any axis, whatever the angle, for an error of t moves P within the triangle. The pad is 24u E.
 // Nothing overflows: x and y are below 2^62, edge functions below 2^125, z at most 2. Edge
 // functions have lost no more than 2^-147 to underflow: with |det| >= 2^-120 that is below u E / 2, and
@@ -162,7 +162,7 @@ static inline uint hit_triangles(const Space* s, Triangles p, Interval outer, fl
   const Real det = (u + v) + w;
   Mask met = is_within(u, v, w) & (det != 0.0f);
   if (is_none(met)) return 0u;
-  const Real top = (u * a.z + v * b.z) + w * c.z;
+  const Real top = fma(w, c.z, fma(v, b.z, u * a.z));
   Real t = top / det * s->t_of_unit;
   // |top| >= 2^-100 and |det| >= 2^-120. Without instances `outer` holds everything.
   Mask is_sure = smaller_each(fabs(top), fabs(det) * 0x1p20f) >= 0x1p-100f;

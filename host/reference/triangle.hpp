@@ -27,8 +27,8 @@ struct sheared {
 
   sheared(const space<T>& s, const vec3<T>& corner) {
     const axes<T> a(corner - s.origin);
-    x = a[s.kx] - s.Sx * a[s.kz];
-    y = a[s.ky] - s.Sy * a[s.kz];
+    x = std::fma(-s.Sx, a[s.kz], a[s.kx]);
+    y = std::fma(-s.Sy, a[s.kz], a[s.ky]);
     z = s.unit * a[s.kz];
   }
 };
@@ -70,7 +70,7 @@ class triangle_test {
     if ((u_ < 0 || v_ < 0 || w_ < 0) && (u_ > 0 || v_ > 0 || w_ > 0)) return {};
     const T det = (u_ + v_) + w_;
     if (det == 0) return {};
-    T t = ((u_ * a_.z + v_ * b_.z) + w_ * c_.z) / det * space_.t_of_unit;
+    T t = std::fma(w_, c_.z, std::fma(v_, b_.z, u_ * a_.z)) / det * space_.t_of_unit;
     const interval<T> slab = space_.slab(bounds_of(p_)).meet(outer);
     if (!(slab.near <= slab.far)) return {};
     t = t < slab.near ? slab.near : t;

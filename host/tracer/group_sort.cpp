@@ -34,8 +34,7 @@ std::string options_of(const tuning& t, bool looks_back) {
   o += " -DCOPIES=" + std::to_string(t.sort.histogram_copies);
   if (t.sort.values_beside) o += " -DFACET_SORT_BESIDE";
   if (looks_back) o += " -DFACET_LOOK_BACK";
-  if (t.sort.registers != 0) o += " -cl-nv-maxrregcount=" + std::to_string(t.sort.registers);
-  return o;
+  return o + register_cap(t.sort.registers);
 }
 
 /// Words of local memory that `scatter` needs (LOCAL_WORDS in cl/radix_sort.cl).

@@ -115,7 +115,8 @@ runtime::kernel device_scene::state::trace_kernel(bool any) {
   if (!trace_program)
     trace_program = compiled(queue, kernels, "trace.cl",
                              traversal_options(used, model.nesting, chosen.tree, in_images,
-                                               geometry.is_wide, geometry.stack, 0, tuned));
+                                               geometry.is_wide, geometry.stack, 0, tuned) +
+                                 register_cap(tuned.trace_registers));
   return trace_program->get_kernel(any ? "trace_any" : "trace_closest");
 }
 

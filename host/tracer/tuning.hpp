@@ -26,6 +26,7 @@ struct tuning {
   bool image_geometry = false;     ///< what --geometry auto means
   bool wide_layout = false;        ///< what layout_kind::automatic means, but for images
   bool hardware_minmax = false;    ///< cl/device.h
+  std::uint32_t trace_registers = 0;  ///< of trace.cl's kernels (register_cap)
   bool correctly_rounded = false;  ///< the device can be asked for exact divide and sqrt
 
   std::string more_flags;  ///< as options::compiler_flags has them
@@ -33,6 +34,9 @@ struct tuning {
   /// Options for the compiler, each with a space before it.
   std::string flags() const;
 };
+
+/// An option for NVIDIA's compiler: a work-item has at most `registers`; 0: as many as it likes.
+std::string register_cap(std::uint32_t registers);
 
 /// Measured defaults by kind of device (bench/, README).
 tuning tuning_for(const runtime::device& d);

@@ -27,9 +27,9 @@ std::uint64_t hash_of(const picture& p) {
 /// By scene, at a third of its size; an H200 has confirmed those without a remark. A change of the
 /// picture is a change here, and is to be meant.
 const std::map<std::string, std::uint64_t> expected{
-    {"glass_shadow", 0x00d6fe91004cf76bu}, {"knot", 0x01a867a825f87cdfu},
-    {"nested_glass", 0x9ca948a091de6518u}, {"room", 0xfa0ece8027b71097u},
-    {"showcase", 0x5e71bf22060395a8u},     {"sphereflake", 0xebed4ef26c5a726eu},
+    {"glass_shadow", 0x99904e136afc39c6u}, {"knot", 0x2d62a7cc5ad7d6afu},
+    {"nested_glass", 0x60b5f393fc312d8eu}, {"room", 0x5e1c8519cb73ac31u},
+    {"showcase", 0xa581d90fac1e85e3u},     {"sphereflake", 0x8c210232a4a4b343u},
     {"terrain", 0xb21752be79805e8du},
 };
 
