@@ -9,8 +9,10 @@
 namespace facet::reference {
 
 /// Bit k is set unless triangle k of the block certainly is beside the ray: the edge functions of
-/// triangle_test four at a time, with rounded products: their difference has the right sign or is
-/// 0, and 0 passes.
+/// triangle_test four at a time, without its fmas, which four lanes have not. With X the largest of
+/// |x| and |y|, and E above all |coordinates| relative to the ray: x and y are off by 2u (E + X), X
+/// is at most 2E, and so an edge function by 4X times that, and by 4u X^2 for its own rounding: by
+/// less than 48u E X, which is twice the pad times X.
 template <class T>
 [[gnu::always_inline]] inline unsigned beside_filter(const space<T>& s, const triangle_block& b) {
   lanes<T> x[3], y[3];
@@ -23,10 +25,18 @@ template <class T>
     x[c] = (x[c] - s.origin[s.kx]) - s.Sx * z;
     y[c] = (y[c] - s.origin[s.ky]) - s.Sy * z;
   }
+  lanes<T> most{};
+  for (const auto* from : {x, y})
+    for (std::size_t c = 0; c < 3; ++c) {
+      const lanes<T> size = from[c] < 0 ? -from[c] : from[c];
+      most = size > most ? size : most;
+    }
+  const lanes<T> off = 2 * s.pad * most;
   const lanes<T> u = x[2] * y[1] - y[2] * x[1];
   const lanes<T> v = x[0] * y[2] - y[0] * x[2];
   const lanes<T> w = x[1] * y[0] - y[1] * x[0];
-  return bits_of(((u >= 0) & (v >= 0) & (w >= 0)) | ((u <= 0) & (v <= 0) & (w <= 0)));
+  return bits_of(((u >= -off) & (v >= -off) & (w >= -off)) |
+                 ((u <= off) & (v <= off) & (w <= off)));
 }
 
 template <class T>

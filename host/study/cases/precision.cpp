@@ -92,7 +92,7 @@ void grazing(lab& l) {
   // How far t may be off: corners relative to the ray are rounded by u, their sheared x and y by 3
   // u and z by 3 u of R, the largest |corner - origin|; edge functions by 2 u. The sum weighs three
   // corners (4 u more). A displacement across the ray counts 1/tan of the angle, and shearing
-  // stretches it by at most sqrt(3): |dt| <= u R (8 + 14 / sin), with |d_z| >= |d|/sqrt(3) then 25
+  // stretches it by at most sqrt(3): |dt| <= u R (8 + 13 / sin), with |d_z| >= |d|/sqrt(3) then 25
   // u R / sin(angle).
   constexpr double bound = 25;
   const std::uint64_t count = l.at_most(20000);
