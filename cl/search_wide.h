@@ -15,8 +15,8 @@ static inline float near_of(ulong entry) { return as_float((uint)(entry >> 32));
 // A mark on the stack: below it lies what waits in the world, above it an instance's tree.
 #define FACET_INSTANCE_ENDS ((ulong)FACET_NONE)
 
-// Asks for what waits: it is read after all that lies before it. A block's last bytes are left out, so
-// that node and block are asked for alike. For a leaf of the top tree, whose index is an instance's,
+// Asks for what waits: it is read after all that lies before it. A node has 256 bytes; a block's last 32 are
+// left out, so that both are asked for alike. For a leaf of the top tree, whose index is an instance's,
 // some block comes, or nothing.
 static inline void fetch_child(const Scene* s, GEOMETRY positions, uint child) {
   __global const void* node = s->nodes + child;

@@ -21,13 +21,13 @@ struct tuning {
                 bounds_groups = 64;  ///< of the kernels of cl/morton.cl; a power of 2
   bool serial_trees = true;  ///< a work-item builds a tree alone (cl/serial_tree.cl), not a group
   std::uint32_t list_group = 64, list_each = 32,
-                scan_group = 1;    ///< of cl/subtrees.cl; powers of 2
-  std::uint32_t split_group = 64;  ///< that splits a range of the top tree; at least 64
-  bool image_geometry = false;     ///< what --geometry auto means
-  bool wide_layout = false;        ///< what layout_kind::automatic means, but for images
-  bool hardware_minmax = false;    ///< cl/device.h
+                scan_group = 1;       ///< of cl/subtrees.cl; powers of 2
+  std::uint32_t split_group = 64;     ///< that splits a range of the top tree; at least 64
+  bool image_geometry = false;        ///< what --geometry auto means
+  bool wide_layout = false;           ///< what layout_kind::automatic means, but for images
+  bool hardware_minmax = false;       ///< cl/device.h
   std::uint32_t trace_registers = 0;  ///< of trace.cl's kernels (register_cap)
-  bool correctly_rounded = false;  ///< the device can be asked for exact divide and sqrt
+  bool correctly_rounded = false;     ///< the device can be asked for exact divide and sqrt
 
   std::string more_flags;  ///< as options::compiler_flags has them
 
