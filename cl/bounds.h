@@ -36,6 +36,14 @@ static inline float split_cost(Bounds left, float left_weight, Bounds right, flo
   return cost < INFINITY ? cost : INFINITY;
 }
 
+// What a subtree of `weight` primitives costs a ray that meets it: they are tested LEAF_BLOCK at a time.
+#ifndef LEAF_BLOCK
+#define LEAF_BLOCK 1u
+#endif
+static inline float tests_of(float weight) {
+  return LEAF_BLOCK == 1u ? weight : ceil(weight * (1.0f / (float)LEAF_BLOCK));
+}
+
 // Twice the centre.
 static inline float3 centre2(Bounds b) { return b.lo + b.hi; }
 

@@ -98,7 +98,7 @@ static inline SerialSplit best_serial_split(const Entries* e, const Orders* o, u
     for (uint i = begin + 1u; i < end; ++i) {
       box = joined_packed(e->box[by[i - 1u]], box);
       weight += e->weight[by[i - 1u]];
-      const float cost = packed_cost(box, weight, right[i - begin], right_weight[i - begin]);
+      const float cost = packed_cost(box, tests_of(weight), right[i - begin], tests_of(right_weight[i - begin]));
       if (cost < best.cost || best.axis == FACET_NONE) {
         best.cost = cost;
         best.axis = axis;

@@ -119,7 +119,7 @@ typedef struct {
 } Split;
 
 static inline void better_split(Split* best, uint axis, const TwoSides* sides) {
-  const float cost = split_cost(sides->left, sides->left_weight, sides->right, sides->right_weight);
+  const float cost = split_cost(sides->left, tests_of(sides->left_weight), sides->right, tests_of(sides->right_weight));
   const uint key = axis << 8 | sides->left_count;
   if (sides->left_count == 0u || cost > best->cost || (cost == best->cost && key > best->key)) return;
   best->cost = cost;

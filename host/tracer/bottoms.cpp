@@ -11,7 +11,8 @@ template <class Primitive>
 std::string options_of(const tuning& t, leaf_rule leaves) {
   return t.flags() + primitive_options(std::is_same_v<Primitive, Box>) +
          " -DLEAF_SURE=" + std::to_string(leaves.sure) +
-         "u -DLEAF_MOST=" + std::to_string(leaves.most) + "u";
+         "u -DLEAF_MOST=" + std::to_string(leaves.most) +
+         "u -DLEAF_BLOCK=" + std::to_string(leaves.block) + "u";
 }
 
 }  // namespace

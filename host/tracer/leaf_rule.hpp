@@ -10,6 +10,7 @@ struct leaf_rule {
   /// One of at most so many, up to 16, where testing all of them costs no more than visiting the
   /// children, by the surface area heuristic (MacDonald and Booth 1990).
   std::uint32_t most = 4;
+  std::uint32_t block = 1;  ///< primitives of a leaf that are tested at once, a power of 2
 };
 
 }  // namespace facet::tracer
