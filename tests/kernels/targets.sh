@@ -3,8 +3,8 @@
 # SPIR, NVPTX and AMDGCN: devices that the test machine may not have; the wide layout, which is for CPUs,
 # for SPIR and for x86-64 with AVX-512. The flags are read from
 # cl/features.h, so that a new feature is covered when it is named there.
-# Flags decide what is compiled, targets how: all sets become code for SPIR; for the GPUs those with no
-# flag, one, all, or all but one, and the other sets are checked without generating code.
+# Flags decide what is compiled, targets how: sets with no flag, one, all, or all but one become code for each
+# target, and the others are checked for SPIR without generating code.
 # Usage: targets.sh CL_FOLDER [CLANG]
 set -euo pipefail
 cl=$1
@@ -19,6 +19,8 @@ done
 flags=("${derived[@]}" "${chosen[@]}")
 (( ${#derived[@]} >= 5 )) || { echo "cl/features.h names only ${#derived[@]} FACET_NO_ flags"; exit 1; }
 
+# Whether of N flags a set (bits of a number) has none, one, all, or all but one.
+is_outer() { local count; count=$(bits "$1"); (( count <= 1 || count >= $2 - 1 )); }
 bits() { local n=$1 b=0; while (( n )); do (( b += n & 1, n >>= 1 )) || true; done; echo "$b"; }
 
 # Every subset of the flags, for the kernels that traverse; the builders' kernels have none.
@@ -30,9 +32,9 @@ for target in spir64-unknown-unknown nvptx64-nvidia-nvcl amdgcn-amd-amdhsa; do
     for ((i = 0; i < ${#flags[@]}; ++i)); do
       (( set >> i & 1 )) && options+=" -D${flags[i]}"
     done
-    count=$(bits "$set")
-    as=check
-    [[ $target == spir64* ]] || (( count <= 1 || count >= ${#flags[@]} - 1 )) && as=code
+    as=code
+    is_outer "$set" ${#flags[@]} || as=check
+    [[ $as == code || $target == spir64* ]] || continue
     echo "$target $as render.cl$options"
     echo "$target $as trace.cl$options"
   done
@@ -62,9 +64,12 @@ for ((set = 0; set < 1 << ${#derived[@]}; ++set)); do
   for ((i = 0; i < ${#derived[@]}; ++i)); do
     (( set >> i & 1 )) && options+=" -D${derived[i]}"
   done
+  as=code
+  is_outer "$set" ${#derived[@]} || as=check
   for target in spir64-unknown-unknown x86_64-unknown-linux-gnu; do
+    [[ $as == code || $target == spir64* ]] || continue
     for kernel in render.cl trace.cl probe.cl "trace.cl -DFACET_TREE_NONE"; do
-      echo "$target code $kernel$options"
+      echo "$target $as $kernel$options"
     done
   done
 done >> "$jobs"
