@@ -3,18 +3,50 @@
 #define FACET_SEARCH_NARROW_H
 
 #include "query.h"
+#include "warp.h"
 
 // A mark on the stack: below it lies what waits in the world, above it an instance's tree.
 #define FACET_INSTANCE_ENDS FACET_NONE
 
-// Depth first, the nearer child first. A node leaves at most one child waiting, so the depth of the
-// trees, and one for the mark, are enough for the stack: FACET_STACK is at least that
-// (host/tracer/tree.cpp), and it cannot overflow.
-static inline void search(const Scene* s, GEOMETRY positions, float3 o, float3 d, float tmin, uint mode,
-                          Space* space, Query* q) {
-  uint waiting[FACET_STACK];
-  float near_of[FACET_STACK];  // of what waits; only where t of the hit counts
-  int top = 0;
+// What waits. A node leaves at most one child waiting, so the depth of the trees, and one for the mark, are
+// enough: FACET_STACK is at least that (host/tracer/tree.cpp), and it cannot overflow.
+typedef struct {
+  uint child[FACET_STACK];
+  float near[FACET_STACK];  // only where t of the hit counts
+  int top;
+} Stack;
+
+// The nearer of a node's children that are to be visited, the other one waits; FACET_NONE if none is.
+static inline uint visit_node(const Scene* s, uint node, const Space* space, Sides sides, float tmin,
+                              float best, uint mode, Stack* stack) {
+  __global const Node* n = s->nodes + node;
+  const uint4 child = *(__global const uint4*)n->child;
+  Each near, far;
+  child_intervals(space->slabs, sides, n->x[0], tmin, best, &near, &far);
+  const bool is_first = near.x <= far.x, is_second = near.y <= far.y;
+  if (!is_first && !is_second) return FACET_NONE;
+  const bool is_swapped = is_first && is_second ? near.y < near.x : is_second;
+  if (is_first && is_second) {
+    if (mode == FACET_CLOSEST) stack->near[stack->top] = is_swapped ? near.x : near.y;
+    stack->child[stack->top++] = is_swapped ? child.x : child.y;
+  }
+  return is_swapped ? child.y : child.x;
+}
+
+// True if the query is answered.
+static inline bool meet_leaf(const Scene* s, GEOMETRY positions, const Space* space, uint place,
+                             Interval outer, uint leaf, float tmin, uint mode, Query* q) {
+  const uint slot = FACET_LEAF_FIRST(leaf), count = FACET_LEAF_COUNT(leaf);
+  for (uint k = 0; k < count; ++k)
+    if (meet_triangles(s, positions, space, place, outer, slot + k, tmin, mode, q)) return true;
+  return false;
+}
+
+// Depth first, the nearer child first.
+static inline void search_closest(const Scene* s, GEOMETRY positions, float3 o, float3 d, float tmin,
+                                  Space* space, Query* q) {
+  Stack stack;
+  stack.top = 0;
   uint node = s->root;
   Interval outer = {-INFINITY, INFINITY};
   uint place = 0u;
@@ -24,45 +56,27 @@ static inline void search(const Scene* s, GEOMETRY positions, float3 o, float3 d
   const Slabs world = space->slabs;
 #endif
   for (;;) {
-    bool is_leaf = true;
-    while (!(node & FACET_LEAF_BIT)) {
-      __global const Node* n = s->nodes + node;
-      const uint4 child = *(__global const uint4*)n->child;
-      Each near, far;
-      child_intervals(space->slabs, sides, n->x[0], tmin, q->t, &near, &far);
-      const bool is_first = near.x <= far.x, is_second = near.y <= far.y;
-      is_leaf = is_first || is_second;
-      if (!is_leaf) break;
-      const bool is_swapped = is_first && is_second ? near.y < near.x : is_second;
-      node = is_swapped ? child.y : child.x;
-      if (is_first && is_second) {
-        if (mode == FACET_CLOSEST) near_of[top] = is_swapped ? near.x : near.y;
-        waiting[top++] = is_swapped ? child.x : child.y;
-      }
-    }
-    if (is_leaf) {
+    while (!(node & FACET_LEAF_BIT))
+      node = visit_node(s, node, space, sides, tmin, q->t, FACET_CLOSEST, &stack);
+    if (node != FACET_NONE) {
 #ifndef FACET_NO_INSTANCES
       if (!is_inside) {
         place = FACET_LEAF_FIRST(node);
         if (enter_instance(s, place, o, d, world, &outer, space)) {
           is_inside = true;
           sides = near_sides(space->slabs);
-          waiting[top++] = FACET_INSTANCE_ENDS;
+          stack.child[stack.top++] = FACET_INSTANCE_ENDS;
           node = s->instances[place].root;
           continue;
         }
         space->slabs = world;
       } else
 #endif
-      {
-        const uint slot = FACET_LEAF_FIRST(node), count = FACET_LEAF_COUNT(node);
-        for (uint k = 0; k < count; ++k)
-          if (meet_triangles(s, positions, space, place, outer, slot + k, tmin, mode, q)) return;
-      }
+        meet_leaf(s, positions, space, place, outer, node, tmin, FACET_CLOSEST, q);
     }
     for (;;) {
-      if (top == 0) return;
-      node = waiting[--top];
+      if (stack.top == 0) return;
+      node = stack.child[--stack.top];
 #ifndef FACET_NO_INSTANCES
       if (node == FACET_INSTANCE_ENDS) {
         is_inside = false;
@@ -71,9 +85,96 @@ static inline void search(const Scene* s, GEOMETRY positions, float3 o, float3 d
         continue;
       }
 #endif
-      if (mode != FACET_CLOSEST || near_of[top] <= q->t) break;
+      if (stack.near[stack.top] <= q->t) break;
     }
   }
+}
+
+// What waits above the mark; FACET_NONE if nothing does.
+static inline uint next_waiting(Stack* stack) {
+  if (stack->top == 0) return FACET_NONE;
+#ifndef FACET_NO_INSTANCES
+  if (stack->child[stack->top - 1] == FACET_INSTANCE_ENDS) return FACET_NONE;
+#endif
+  return stack->child[--stack->top];
+}
+
+// Lanes of a warp that may go on without a leaf while the others wait with one.
+#define FEW_LANES 4u
+
+// Where t of the hit does not matter and nothing is culled by it, a leaf can wait: a work-item that has
+// found one goes on until it has the next, and a warp until few of its lanes have none, so that leaves
+// are tested by many lanes at once (speculative traversal: Aila and Laine, HPG 2009).
+static inline void search_any(const Scene* s, GEOMETRY positions, float3 o, float3 d, float tmin, uint mode,
+                              Space* space, Query* q) {
+  Stack stack;
+  stack.top = 0;
+  uint node = s->root, leaf = FACET_NONE;
+  Interval outer = {-INFINITY, INFINITY};
+  uint place = 0u;
+  Sides sides = near_sides(space->slabs);
+  bool is_inside = true;
+#ifndef FACET_NO_INSTANCES
+  is_inside = false;  // in an instance's tree
+  const Slabs world = space->slabs;
+#endif
+  for (;;) {
+    while (!(node & FACET_LEAF_BIT)) {
+      node = visit_node(s, node, space, sides, tmin, q->t, mode, &stack);
+      if (node == FACET_NONE) node = next_waiting(&stack);
+      if (is_inside && leaf == FACET_NONE && (node & FACET_LEAF_BIT)) {
+        leaf = node;
+        node = next_waiting(&stack);
+      }
+#ifdef FACET_PTX
+      if (active_lanes(leaf == FACET_NONE) <= FEW_LANES) break;
+#endif
+    }
+#ifndef FACET_NO_INSTANCES
+    if (!is_inside) {
+      if (node == FACET_NONE) return;
+      if (!(node & FACET_LEAF_BIT)) continue;
+      place = FACET_LEAF_FIRST(node);
+      if (enter_instance(s, place, o, d, world, &outer, space)) {
+        is_inside = true;
+        sides = near_sides(space->slabs);
+        stack.child[stack.top++] = FACET_INSTANCE_ENDS;
+        node = s->instances[place].root;
+      } else {
+        space->slabs = world;
+        node = next_waiting(&stack);
+      }
+      continue;
+    }
+#endif
+    for (;;) {
+      if (leaf == FACET_NONE && (node & FACET_LEAF_BIT)) {
+        leaf = node;
+        node = next_waiting(&stack);
+      }
+      if (leaf == FACET_NONE) break;
+      if (meet_leaf(s, positions, space, place, outer, leaf, tmin, mode, q)) return;
+      leaf = FACET_NONE;
+    }
+    if (node != FACET_NONE) continue;
+#ifdef FACET_NO_INSTANCES
+    return;
+#else
+    --stack.top;  // the mark
+    is_inside = false;
+    space->slabs = world;
+    sides = near_sides(world);
+    node = next_waiting(&stack);
+#endif
+  }
+}
+
+static inline void search(const Scene* s, GEOMETRY positions, float3 o, float3 d, float tmin, uint mode,
+                          Space* space, Query* q) {
+  if (mode == FACET_CLOSEST)
+    search_closest(s, positions, o, d, tmin, space, q);
+  else
+    search_any(s, positions, o, d, tmin, mode, space, q);
 }
 
 #endif

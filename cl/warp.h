@@ -20,7 +20,7 @@
 static inline uint warp_lane(uint lid) { return lid % WARP_SIZE; }
 static inline uint lanes_below(uint lane) { return (1u << lane) - 1u; }
 
-// All work-items of the warp call these together.
+// All work-items of the warp call these together, but for active_lanes.
 
 // Bit l is set where lane l gives a value that is not 0.
 static inline uint warp_ballot(uint value) {
@@ -30,6 +30,17 @@ static inline uint warp_ballot(uint value) {
       : "=r"(lanes)
       : "r"(value));
   return lanes;
+}
+
+// How many of the lanes that run together with this one give true; not all need to.
+static inline uint active_lanes(bool is_so) {
+  uint lanes;
+  __asm__ volatile(
+      "{ .reg .pred p; .reg .b32 active; activemask.b32 active; setp.ne.u32 p, %1, 0;"
+      " vote.sync.ballot.b32 %0, p, active; }"
+      : "=r"(lanes)
+      : "r"((uint)is_so));
+  return popcount(lanes);
 }
 
 // The value of lane `from`.

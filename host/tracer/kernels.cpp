@@ -44,6 +44,7 @@ std::string traversal_options(const features& f, std::uint32_t nesting, tree_kin
   std::string o = f.flags() + t.flags();
   if (in_images) o += " -DFACET_GEOMETRY_IMAGE";
   if (is_wide) o += " -DFACET_WIDE";
+  if (t.warps) o += " -DFACET_PTX";
   if (tree == tree_kind::none) o += " -DFACET_TREE_NONE";
   o += " -DFACET_STACK=" + std::to_string(step_up(traversal_stack, 32));
   o += " -DFACET_NESTING=" + std::to_string(nesting);

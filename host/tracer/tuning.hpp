@@ -26,6 +26,7 @@ struct tuning {
   bool image_geometry = false;        ///< what --geometry auto means
   bool wide_layout = false;           ///< what layout_kind::automatic means, but for images
   bool hardware_minmax = false;       ///< cl/device.h
+  bool warps = false;                 ///< PTX of sm_70 can be written (cl/warp.h)
   std::uint32_t trace_registers = 0;  ///< of trace.cl's kernels (register_cap)
   bool correctly_rounded = false;     ///< the device can be asked for exact divide and sqrt
 

@@ -81,7 +81,9 @@ for ranking in "" " -DFACET_SORT_MATCH"; do
     done
   done
 done >> "$jobs"
-echo "nvptx64-nvidia-nvcl code look_back.cl -DFACET_PTX" >> "$jobs"
+for kernel in look_back.cl trace.cl render.cl "trace.cl -DFACET_NO_INSTANCES"; do
+  echo "nvptx64-nvidia-nvcl code $kernel -DFACET_PTX"
+done >> "$jobs"
 
 compile() {
   local clang=$1 cl=$2 target=$3 as=$4 kernel=$5
