@@ -13,6 +13,7 @@
 //   FACET_RAY_STACK=n      entries of the stack of pending rays: at least max_depth
 //   FACET_NESTING=n        transparent objects that may lie within one another (media.h)
 //   FACET_HARDWARE_MINMAX, FACET_PORTABLE  see device.h
+//   FACET_PTX              NVIDIA: work-items of a warp ask each other (warp.h)
 #ifndef FACET_FEATURES_H
 #define FACET_FEATURES_H
 
