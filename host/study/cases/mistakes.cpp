@@ -60,12 +60,12 @@ mistake no_tie_break() {
 }
 
 mistake truncated_nodes() {
-  return of("truncated-nodes", "nodes keep 8 bits of a coordinate, cut off",
+  return of("truncated-nodes", "nodes keep of a coordinate its power of two alone",
             {{"box.h", "  return fma(face, (Each)(inverse), (Each)(offset));",
               "#ifdef FACET_WIDE\n"
-              "  const Each cut = as_float8(as_uint8(face) & 0xffff8000u);\n"
+              "  const Each cut = as_float8(as_uint8(face) & 0xff800000u);\n"
               "#else\n"
-              "  const Each cut = as_float2(as_uint2(face) & 0xffff8000u);\n"
+              "  const Each cut = as_float2(as_uint2(face) & 0xff800000u);\n"
               "#endif\n"
               "  return fma(cut, (Each)(inverse), (Each)(offset));"}});
 }
