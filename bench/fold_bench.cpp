@@ -40,7 +40,7 @@ fold_times measure(runtime::queue& q, const mesh& m, int repeats, const std::str
   t.more_flags = flags;
   t.serial_trees = true;  // as on CPUs, for which the wide layout is
   tracer::node_trees trees(q, tracer::kernel_sources(), t, tracer::tree_kind::binned,
-                           {FACET_BLOCK, FACET_BLOCK, FACET_BLOCK});
+                           tracer::block_leaves);
   tracer::folder folder(q, tracer::kernel_sources(), t);
   tracer::block_maker maker(q, tracer::kernel_sources(), t);
   const tracer::packed_scene packed = tracer::pack(scene_of(m), false);

@@ -132,7 +132,7 @@ static inline bool meet_triangles(const Scene* s, GEOMETRY positions, const Spac
   return false;
 }
 
-// Takes the world's ray into an instance; false if it cannot meet it.
+// Takes the world's ray into an instance; false if it cannot meet it, and then space's slabs stay as they are.
 static inline bool enter_instance(const Scene* s, uint place, float3 o, float3 d, const Slabs world,
                            Interval* outer, Space* space) {
   __global const Instance* i = &s->instances[place];

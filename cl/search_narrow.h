@@ -30,8 +30,6 @@ static inline uint visit_node(const Scene* s, uint node, const Space* space, Sid
   return is_swapped ? child.y : child.x;
 }
 
-static inline bool is_leaf(uint child) { return (child & FACET_LEAF_BIT) && child != FACET_NONE; }
-
 // True if the query is answered.
 static inline bool meet_leaf(const Scene* s, GEOMETRY positions, const Space* space, uint place,
                              Interval outer, uint leaf, float tmin, uint mode, Query* q) {
@@ -40,6 +38,18 @@ static inline bool meet_leaf(const Scene* s, GEOMETRY positions, const Space* sp
     if (meet_triangles(s, positions, space, place, outer, slot + k, tmin, mode, q)) return true;
   return false;
 }
+
+#ifndef FACET_NO_INSTANCES
+// The root of an instance's tree, once the ray is taken into it and the stack marked; FACET_NONE if the ray
+// cannot meet it.
+static inline uint enter_tree(const Scene* s, uint place, float3 o, float3 d, const Slabs world,
+                              Interval* outer, Space* space, Sides* sides, uint* waiting, int* top) {
+  if (!enter_instance(s, place, o, d, world, outer, space)) return FACET_NONE;
+  *sides = near_sides(space->slabs);
+  waiting[(*top)++] = FACET_INSTANCE_ENDS;
+  return s->instances[place].root;
+}
+#endif
 
 // Depth first, the nearer child first.
 static inline void search_closest(const Scene* s, GEOMETRY positions, float3 o, float3 d, float tmin,
@@ -62,14 +72,9 @@ static inline void search_closest(const Scene* s, GEOMETRY positions, float3 o, 
 #ifndef FACET_NO_INSTANCES
       if (!is_inside) {
         place = FACET_LEAF_FIRST(node);
-        if (enter_instance(s, place, o, d, world, &outer, space)) {
-          is_inside = true;
-          sides = near_sides(space->slabs);
-          waiting[top++] = FACET_INSTANCE_ENDS;
-          node = s->instances[place].root;
-          continue;
-        }
-        space->slabs = world;
+        node = enter_tree(s, place, o, d, world, &outer, space, &sides, waiting, &top);
+        is_inside = node != FACET_NONE;
+        if (is_inside) continue;
       } else
 #endif
         meet_leaf(s, positions, space, place, outer, node, tmin, FACET_CLOSEST, q);
@@ -109,7 +114,7 @@ static inline void search_any(const Scene* s, GEOMETRY positions, float3 o, floa
                               Space* space, Query* q) {
   uint waiting[FACET_STACK];
   int top = 0;
-  uint node = s->root, leaf = 0u;  // that waits; 0: none
+  uint node = s->root, leaf = FACET_NONE;  // that waits
   Interval outer = {-INFINITY, INFINITY};
   uint place = 0u;
   Sides sides = near_sides(space->slabs);
@@ -122,12 +127,12 @@ static inline void search_any(const Scene* s, GEOMETRY positions, float3 o, floa
     while (!(node & FACET_LEAF_BIT)) {
       node = visit_node(s, node, space, sides, tmin, q->t, mode, waiting, 0, &top);
       if (node == FACET_NONE) node = next_waiting(waiting, &top);
-      if (is_inside && leaf == 0u && is_leaf(node)) {
+      if (is_inside && leaf == FACET_NONE && (node & FACET_LEAF_BIT)) {
         leaf = node;
         node = next_waiting(waiting, &top);
       }
 #ifdef FACET_PTX
-      if (active_lanes(leaf == 0u) <= FEW_LANES) break;
+      if (active_lanes(leaf == FACET_NONE) <= FEW_LANES) break;
 #endif
     }
 #ifndef FACET_NO_INSTANCES
@@ -135,29 +140,20 @@ static inline void search_any(const Scene* s, GEOMETRY positions, float3 o, floa
       if (node == FACET_NONE) return;
       if (!(node & FACET_LEAF_BIT)) continue;
       place = FACET_LEAF_FIRST(node);
-      if (enter_instance(s, place, o, d, world, &outer, space)) {
-        is_inside = true;
-        sides = near_sides(space->slabs);
-        waiting[top++] = FACET_INSTANCE_ENDS;
-        node = s->instances[place].root;
-      } else {
-        space->slabs = world;
-        node = next_waiting(waiting, &top);
-      }
+      node = enter_tree(s, place, o, d, world, &outer, space, &sides, waiting, &top);
+      is_inside = node != FACET_NONE;
+      if (!is_inside) node = next_waiting(waiting, &top);
       continue;
     }
 #endif
-    if (leaf == 0u && is_leaf(node)) {
-      leaf = node;
-      node = next_waiting(waiting, &top);
-    }
-    while (leaf != 0u) {
-      if (meet_leaf(s, positions, space, place, outer, leaf, tmin, mode, q)) return;
-      leaf = 0u;
-      if (is_leaf(node)) {
+    for (;;) {
+      if (leaf == FACET_NONE && (node & FACET_LEAF_BIT)) {
         leaf = node;
         node = next_waiting(waiting, &top);
       }
+      if (leaf == FACET_NONE) break;
+      if (meet_leaf(s, positions, space, place, outer, leaf, tmin, mode, q)) return;
+      leaf = FACET_NONE;
     }
     if (node != FACET_NONE) continue;
 #ifdef FACET_NO_INSTANCES

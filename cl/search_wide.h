@@ -100,7 +100,6 @@ static inline void search(const Scene* s, GEOMETRY positions, float3 o, float3 d
         node = s->instances[place].root;
         continue;
       }
-      space->slabs = world;
 #endif
     } else if (meet_triangles(s, positions, space, place, outer, FACET_LEAF_FIRST(node),
                               tmin, mode, q)) {

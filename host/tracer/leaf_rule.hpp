@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "tracer/layout.hpp"
+
 namespace facet::tracer {
 
 struct leaf_rule {
@@ -12,5 +14,8 @@ struct leaf_rule {
   std::uint32_t most = 4;
   std::uint32_t block = 1;  ///< primitives of a leaf that are tested at once, a power of 2
 };
+
+/// Of the wide layout: a leaf is a block.
+inline constexpr leaf_rule block_leaves{FACET_BLOCK, FACET_BLOCK, FACET_BLOCK};
 
 }  // namespace facet::tracer

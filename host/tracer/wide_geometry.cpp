@@ -58,8 +58,7 @@ class wide_builder {
         fold_(q, kernels, t),
         blocks_(q, kernels, t),
         places_(packed_.meshes.size()) {
-    if (has_trees())
-      trees_.emplace(q, kernels, t, kind, leaf_rule{FACET_BLOCK, FACET_BLOCK, FACET_BLOCK});
+    if (has_trees()) trees_.emplace(q, kernels, t, kind, block_leaves);
     // What planning takes of a mesh is less than what building and cutting took.
     const std::uint64_t largest = largest_mesh(packed_);
     check_memory(

@@ -142,7 +142,7 @@ std::vector<texel> soup(std::uint32_t n, float size) {
 }  // namespace
 
 TEST_CASE("binned trees are sound, and the same from work-items and from groups, in any size") {
-  for (const leaf_rule rule : {leaf_rule{2, 4}, leaf_rule{8, 8, 8}, leaf_rule{1, 1}}) {
+  for (const leaf_rule rule : {leaf_rule{2, 4}, block_leaves, leaf_rule{1, 1}}) {
     for (std::uint32_t n = 1; n <= 70; ++n) check(soup(n, 0.1f), rule);
     for (const std::uint32_t n : {255u, 256u, 1000u, 5000u, 33000u}) check(soup(n, 0.02f), rule);
   }
