@@ -26,7 +26,7 @@ RTCDevice device_with(unsigned threads) {
 }
 
 /// A scene of one mesh; `build_seconds` leaves out the copying into Embree's buffers.
-RTCScene built_scene(RTCDevice device, const mesh& m, embree_quality quality,
+RTCScene built_scene(RTCDevice device, const mesh& m, embree_quality quality, bool robust,
                      double& build_seconds) {
   RTCGeometry g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   const auto copy = [&](RTCBufferType type, RTCFormat format, const auto& from,
@@ -46,6 +46,7 @@ RTCScene built_scene(RTCDevice device, const mesh& m, embree_quality quality,
     rtcCommitGeometry(g);
     scene = rtcNewScene(device);
     rtcSetSceneBuildQuality(scene, asked);
+    rtcSetSceneFlags(scene, robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
     rtcAttachGeometry(scene, g);
     rtcCommitScene(scene);
   });
@@ -69,9 +70,10 @@ struct embree_peer::state {
 
 std::string embree_version() { return std::string("Embree ") + RTC_VERSION_STRING; }
 
-embree_peer::embree_peer(const mesh& m, unsigned threads) : state_(std::make_unique<state>()) {
+embree_peer::embree_peer(const mesh& m, unsigned threads, bool robust)
+    : state_(std::make_unique<state>()) {
   state_->device = device_with(threads);
-  state_->scene = built_scene(state_->device, m, embree_quality::medium, state_->build);
+  state_->scene = built_scene(state_->device, m, embree_quality::medium, robust, state_->build);
 }
 
 embree_peer::~embree_peer() = default;
@@ -83,12 +85,17 @@ void embree_peer::closest(const std::vector<ray>& rays, std::vector<hit>& hits) 
 }
 
 void embree_peer::trace(const std::vector<ray>& rays, bool any, unsigned threads,
-                        std::vector<hit>& hits) const {
+                        std::vector<hit>& hits, embree_calls calls) const {
   constexpr std::size_t part = 4096;
   std::atomic<std::size_t> next = 0;
   const auto work = [&] {
-    for (std::size_t first; (first = next.fetch_add(part)) < rays.size();)
-      trace_part(rays, any, first, std::min(rays.size(), first + part), hits);
+    for (std::size_t first; (first = next.fetch_add(part)) < rays.size();) {
+      const std::size_t last = std::min(rays.size(), first + part);
+      if (calls == embree_calls::packets)
+        trace_packets(rays, any, first, last, hits);
+      else
+        trace_part(rays, any, first, last, hits);
+    }
   };
   std::vector<std::thread> pool;
   for (unsigned k = 1; k < threads; ++k) pool.emplace_back(work);
@@ -119,6 +126,38 @@ void embree_peer::trace_part(const std::vector<ray>& rays, bool any, std::size_t
   }
 }
 
+void embree_peer::trace_packets(const std::vector<ray>& rays, bool any, std::size_t first,
+                                std::size_t last, std::vector<hit>& hits) const {
+  constexpr std::size_t lanes = 16;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  for (std::size_t i = first; i < last; i += lanes) {
+    alignas(64) RTCRayHit16 x;
+    alignas(64) int valid[lanes];
+    for (std::size_t k = 0; k < lanes; ++k) {
+      valid[k] = i + k < last ? -1 : 0;
+      const ray& r = rays[std::min(i + k, last - 1)];
+      x.ray.org_x[k] = r.origin.x, x.ray.org_y[k] = r.origin.y, x.ray.org_z[k] = r.origin.z;
+      x.ray.dir_x[k] = r.direction.x, x.ray.dir_y[k] = r.direction.y;
+      x.ray.dir_z[k] = r.direction.z;
+      x.ray.tnear[k] = r.tmin, x.ray.tfar[k] = r.tmax;
+      x.ray.mask[k] = ~0u, x.ray.time[k] = 0, x.ray.flags[k] = 0;
+      x.hit.geomID[k] = x.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
+    }
+    if (any)
+      rtcOccluded16(valid, state_->scene, &context, &x.ray);
+    else
+      rtcIntersect16(valid, state_->scene, &context, &x);
+    for (std::size_t k = 0; k < lanes && i + k < last; ++k) {
+      const bool found = any ? x.ray.tfar[k] < 0 : x.hit.geomID[k] != RTC_INVALID_GEOMETRY_ID;
+      hits[i + k] = !found ? hit{rays[i + k].tmax}
+                    : any  ? hit{0, 0, 0, 0, 0}
+                           : hit{x.ray.tfar[k], x.hit.u[k], x.hit.v[k], 0, x.hit.primID[k]};
+    }
+  }
+}
+
 struct embree_builder::state {
   const mesh& of;
   RTCDevice device;
@@ -133,7 +172,7 @@ embree_builder::~embree_builder() = default;
 
 double embree_builder::build(embree_quality q) {
   double taken = 0;
-  rtcReleaseScene(built_scene(state_->device, state_->of, q, taken));
+  rtcReleaseScene(built_scene(state_->device, state_->of, q, false, taken));
   return taken;
 }
 

@@ -1,4 +1,4 @@
-// Embree 3, as a peer: no robust flag, single rays; trees of medium quality where they are traced.
+// Embree 3, as a peer: trees of medium quality where they are traced.
 #pragma once
 
 #include <memory>
@@ -12,23 +12,29 @@ namespace facet::bench {
 /// "Embree 3.13.5", or empty if the build found none; then no embree_peer can be made.
 std::string embree_version();
 
+/// A ray a call, or sixteen that follow one another, told that they are coherent.
+enum class embree_calls { single, packets };
+
 class embree_peer {
  public:
-  /// Throws std::runtime_error without Embree, or with its message.
-  embree_peer(const mesh& m, unsigned threads);
+  /// `robust` asks for its tests that leak less. Throws std::runtime_error without Embree, or with
+  /// its message.
+  embree_peer(const mesh& m, unsigned threads, bool robust = false);
   ~embree_peer();
 
   double build_seconds() const;
   /// The closest hit by rtcIntersect1, written as the reference writes it: instance 0.
   void closest(const std::vector<ray>& rays, std::vector<hit>& hits) const;
-  /// By rtcIntersect1, or with `any` by rtcOccluded1 (t, u, v are then undefined), on `threads`
-  /// threads that take parts of the rays in turn.
-  void trace(const std::vector<ray>& rays, bool any, unsigned threads,
-             std::vector<hit>& hits) const;
+  /// By rtcIntersect1 or rtcIntersect16, or with `any` by rtcOccluded1 or rtcOccluded16 (t, u, v
+  /// are then undefined), on `threads` threads that take parts of the rays in turn.
+  void trace(const std::vector<ray>& rays, bool any, unsigned threads, std::vector<hit>& hits,
+             embree_calls calls = embree_calls::single) const;
 
  private:
   void trace_part(const std::vector<ray>& rays, bool any, std::size_t first, std::size_t last,
                   std::vector<hit>& hits) const;
+  void trace_packets(const std::vector<ray>& rays, bool any, std::size_t first, std::size_t last,
+                     std::vector<hit>& hits) const;
   struct state;
   std::unique_ptr<state> state_;
 };

@@ -1,4 +1,5 @@
 // facet_bench: benchmarks side by side with peers, one row a subcommand.
+#include <cstdlib>
 #include <exception>
 #include <iostream>
 
@@ -7,6 +8,9 @@
 int main(int argc, char** argv) {
   CLI::App app("Facet's benchmarks; peers take part where they were found at build time.");
   app.require_subcommand(1);
+  // PoCL's threads stay each on its CPU. Otherwise two of them may find themselves on one, after a
+  // peer's threads have run, for as long as a launch takes.
+  setenv("POCL_AFFINITY", "1", 0);
   facet::bench::add_reference_row(app);
   facet::bench::add_trace_row(app);
   facet::bench::add_build_row(app);

@@ -20,8 +20,9 @@ namespace {
 using json = nlohmann::ordered_json;
 
 struct settings {
-  std::vector<std::string> meshes{"terrain:1000", "soup:1000000"};
-  std::string device = "0", geometry = "auto", tree = "binned", layout = "auto", kernels, json;
+  std::vector<std::string> meshes{"terrain:1000", "soup:1000000"}, peers{"single", "packets"};
+  std::string device = "0", geometry = "auto", tree = "binned", layout = "auto", packets = "auto",
+              kernels, json;
   int repeat = 5;
   unsigned threads = std::thread::hardware_concurrency();
 };
@@ -36,38 +37,64 @@ json rates(const std::vector<double>& seconds, std::size_t rays) {
           {"seconds", seconds}};
 }
 
-/// One kind of rays: times both, prints a line, gives it as JSON, and the device's hits.
+/// A way to ask Embree, and what it took.
+struct peer {
+  std::string name;
+  std::unique_ptr<embree_peer> on;
+  embree_calls calls;
+  std::vector<double> times{}, ratios{};
+  std::vector<hit> hits{};
+};
+
+std::vector<peer> peers_of(const mesh& m, const settings& o) {
+  std::vector<peer> all;
+  if (embree_version().empty()) return all;
+  for (const std::string& name : o.peers)
+    all.push_back({name, std::make_unique<embree_peer>(m, o.threads, name.starts_with("robust")),
+                   name.ends_with("packets") ? embree_calls::packets : embree_calls::single});
+  return all;
+}
+
+/// Prints one peer's part of a line; its figures as JSON.
+json figures_of(const peer& p, const std::vector<tracer::hit>& hits) {
+  std::size_t differ = 0;
+  for (std::size_t k = 0; k < hits.size(); ++k)
+    differ += (hits[k].triangle != tracer::miss) != bool(p.hits[k]);
+  const study::summary ratio = study::summarize(p.ratios);
+  json j{{"way", p.name}, {"embree", rates(p.times, hits.size())}};
+  j["ratio"] = {{"median", ratio.median}, {"least", ratio.least}, {"most", ratio.most}};
+  j["hit_or_miss_differs"] = differ;
+  std::printf("  %-8s %7.2f  %.2f (%.2f-%.2f)  %zu", p.name.c_str(),
+              double(j["embree"]["mrays_per_s"]), ratio.median, ratio.least, ratio.most, differ);
+  return j;
+}
+
+/// One kind of rays: times all in turn, prints a line, gives it as JSON, and the device's hits.
 json measure(const std::string& name, const char* kind, const std::vector<ray>& rays, bool any,
-             tracer::device_scene& ours, const embree_peer* peer, const settings& o,
+             tracer::device_scene& ours, std::vector<peer>& peers, const settings& o,
              std::vector<tracer::hit>& hits) {
   const std::vector<tracer::ray> input = packed(rays);
-  std::vector<hit> peer_hits(rays.size());
-  std::vector<double> times, peer_times, ratios;
-  // Without a peer all repeats are one call; with one, each is followed by the peer's.
-  for (int i = 0; i < (peer ? o.repeat : 1); ++i) {
+  std::vector<double> times;
+  for (peer& p : peers) p.times.clear(), p.ratios.clear(), p.hits.resize(rays.size());
+  // Without peers all repeats are one call. With some they take turns, and each one's first pass
+  // only brings back into the caches what the one before has driven out.
+  for (int i = 0; i < (peers.empty() ? 1 : o.repeat); ++i) {
     tracer::statistics s;
-    hits = ours.trace(input, any, peer ? 1 : unsigned(o.repeat), &s);
-    for (double ms : s.kernel_ms) times.push_back(ms * 1e-3);
-    if (!peer) continue;
-    peer_times.push_back(seconds([&] { peer->trace(rays, any, o.threads, peer_hits); }));
-    ratios.push_back(peer_times.back() / times.back());
+    hits = ours.trace(input, any, 1 + (peers.empty() ? unsigned(o.repeat) : 1), &s);
+    for (std::size_t k = 1; k < s.kernel_ms.size(); ++k) times.push_back(s.kernel_ms[k] * 1e-3);
+    for (peer& p : peers) {
+      const auto pass = [&] { p.on->trace(rays, any, o.threads, p.hits, p.calls); };
+      pass();
+      p.times.push_back(seconds(pass));
+      p.ratios.push_back(p.times.back() / times.back());
+    }
   }
   json row{{"mesh", name}, {"rays", kind}, {"count", rays.size()}};
   row["facet"] = rates(times, rays.size());
   std::printf("%-22s %-8s %8zu  %9.2f (%.2f-%.2f)", name.c_str(), kind, rays.size(),
               double(row["facet"]["mrays_per_s"]), double(row["facet"]["mrays_per_s_least"]),
               double(row["facet"]["mrays_per_s_most"]));
-  if (peer) {
-    std::size_t differ = 0;
-    for (std::size_t k = 0; k < rays.size(); ++k)
-      differ += (hits[k].triangle != tracer::miss) != bool(peer_hits[k]);
-    const study::summary ratio = study::summarize(ratios);
-    row["embree"] = rates(peer_times, rays.size());
-    row["ratio"] = {{"median", ratio.median}, {"least", ratio.least}, {"most", ratio.most}};
-    row["hit_or_miss_differs"] = differ;
-    std::printf("  %7.2f  %.2f (%.2f-%.2f)  %zu", double(row["embree"]["mrays_per_s"]),
-                ratio.median, ratio.least, ratio.most, differ);
-  }
+  for (const peer& p : peers) row["peers"].push_back(figures_of(p, hits));
   std::printf("\n");
   std::fflush(stdout);
   return row;
@@ -86,6 +113,9 @@ void run(const settings& o) {
   options.layout = o.layout == "wide"     ? tracer::layout_kind::wide
                    : o.layout == "narrow" ? tracer::layout_kind::narrow
                                           : tracer::layout_kind::automatic;
+  options.packets = o.packets == "on"    ? tracer::packet_kind::on
+                    : o.packets == "off" ? tracer::packet_kind::off
+                                         : tracer::packet_kind::automatic;
   options.kernel_folder = o.kernels;
   const std::string peer_name = embree_version();
   json report = head_of("facet-bench-trace", study::origin_now(device));
@@ -94,9 +124,11 @@ void run(const settings& o) {
   report["peer"] = peer_of(peer_name, o.threads);
   report["results"] = json::array();
   report["builds"] = json::array();
-  std::printf("Mrays/s: median (least-most)%s\n",
-              peer_name.empty() ? "; built without Embree: its figures are left out"
-                                : "; Embree; ratio; hit in one and miss in the other");
+  std::printf(
+      "Mrays/s: median (least-most)%s\n",
+      peer_name.empty()
+          ? "; built without Embree: its figures are left out"
+          : "; of each way to ask Embree: its rate; ratio; hit in one and miss in the other");
   const std::vector<ray> primary = primary_rays();
   for (const std::string& path : o.meshes) {
     const std::string name = path.substr(path.find_last_of('/') + 1);
@@ -105,18 +137,17 @@ void run(const settings& o) {
     if (maker && !maker->kind)
       given.push_back(study::made_by(*maker, tracer::pack(s, false).corners));
     tracer::device_scene ours(queue, s, options, given);
-    std::unique_ptr<embree_peer> peer;
-    if (!peer_name.empty()) peer = std::make_unique<embree_peer>(s.meshes[0], o.threads);
+    std::vector<peer> peers = peers_of(s.meshes[0], o);
 
     std::vector<tracer::hit> hits, ignored;
     auto& results = report["results"];
-    results.push_back(measure(name, "primary", primary, false, ours, peer.get(), o, hits));
+    results.push_back(measure(name, "primary", primary, false, ours, peers, o, hits));
     std::vector<hit> met;
     for (const tracer::hit& h : hits) met.push_back({h.t, h.u, h.v, h.instance, h.triangle});
     const std::vector<ray> shadow = shadow_rays(s.meshes[0], primary, met);
     const std::vector<ray> bounce = bounce_rays(s.meshes[0], primary, met);
-    results.push_back(measure(name, "shadow", shadow, true, ours, peer.get(), o, ignored));
-    results.push_back(measure(name, "bounce", bounce, false, ours, peer.get(), o, ignored));
+    results.push_back(measure(name, "shadow", shadow, true, ours, peers, o, ignored));
+    results.push_back(measure(name, "bounce", bounce, false, ours, peers, o, ignored));
 
     tracer::statistics st;
     ours.trace({}, false, 1, &st);
@@ -124,6 +155,7 @@ void run(const settings& o) {
                                 {"triangles", s.triangle_count()},
                                 {"geometry", st.geometry},
                                 {"layout", st.layout},
+                                {"rays_a_work_item", st.rays_a_work_item},
                                 {"build_ms", st.build_ms},
                                 {"upload_ms", st.upload_ms},
                                 {"compile_ms", st.compile_ms},
@@ -152,9 +184,15 @@ void add_trace_row(CLI::App& app) {
   row->add_option("--layout", o->layout, "of nodes and triangles")
       ->check(CLI::IsMember({"auto", "narrow", "wide"}))
       ->capture_default_str();
+  row->add_option("--packets", o->packets, "rays traced together where they stay close")
+      ->check(CLI::IsMember({"auto", "on", "off"}))
+      ->capture_default_str();
   row->add_option("--kernels", o->kernels, "read cl/ from this folder");
   row->add_option("--repeat", o->repeat, "runs of each figure, alternated with the peer's")
       ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  row->add_option("--peers", o->peers, "ways to ask Embree")
+      ->check(CLI::IsMember({"single", "packets", "robust-single", "robust-packets"}))
       ->capture_default_str();
   row->add_option("--threads", o->threads, "threads that Embree traces with")
       ->check(CLI::Range(1, 1024))

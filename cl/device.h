@@ -3,6 +3,12 @@
 #ifndef FACET_DEVICE_H
 #define FACET_DEVICE_H
 
+// For what two searches call with vectors, which a call would pass through memory.
+#define INLINED __attribute__((always_inline)) static inline
+
+// For what is called seldom, that it takes no registers where it is not.
+#define SELDOM __attribute__((noinline)) static
+
 // The larger, or the smaller, by component, where `bound` is never NaN; a NaN in `a` is dropped. The
 // sign of a zero may be either: use only where it cannot reach a result. GPUs
 // have one instruction for it; PoCL makes calls of fmax and fmin, and of a comparison one instruction.

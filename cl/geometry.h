@@ -36,25 +36,53 @@ static inline void read_normals(GEOMETRY g, uint slot, float3* n0, float3* n1, f
 
 #ifdef FACET_WIDE
 
-// What is tested at once: a block (layout.h: TriangleBlock), the three axes of three corners.
-typedef __global const float8* Triangles;
+// What is tested at once: a block's triangles (layout.h: TriangleBlock), or one of them in all lanes.
+typedef struct {
+  __global const float* first;
+  bool is_one;  // a literal
+} Triangles;
 
 static inline Triangles triangles_from(GEOMETRY g, uint block) {
-  return (Triangles)((__global const TriangleBlock*)g + block);
+  Triangles t;
+  t.first = (__global const float*)((__global const TriangleBlock*)g + block);
+  t.is_one = false;
+  return t;
+}
+
+static inline Triangles one_triangle(Triangles block, uint lane) {
+  Triangles t;
+  t.first = block.first + lane;
+  t.is_one = true;
+  return t;
 }
 
 static inline void read_triangle(GEOMETRY g, uint slot, float3* p0, float3* p1, float3* p2) {
-  __global const float* x = (__global const float*)triangles_from(g, slot / FACET_BLOCK) + slot % FACET_BLOCK;
+  __global const float* x = triangles_from(g, slot / FACET_BLOCK).first + slot % FACET_BLOCK;
   *p0 = (float3)(x[0], x[8], x[16]);
   *p1 = (float3)(x[24], x[32], x[40]);
   *p2 = (float3)(x[48], x[56], x[64]);
 }
 
+// A coordinate of each, `row` of the block's nine.
+static inline Real coordinate(Triangles t, uint row) {
+  __global const float* at = t.first + FACET_BLOCK * row;
+  return t.is_one ? (Real)(*at) : *(__global const Real*)at;
+}
+
 static inline Points points_of(Triangles t, int corner) {
   Points p;
-  p.x = t[3 * corner];
-  p.y = t[3 * corner + 1];
-  p.z = t[3 * corner + 2];
+  p.x = coordinate(t, 3 * corner);
+  p.y = coordinate(t, 3 * corner + 1);
+  p.z = coordinate(t, 3 * corner + 2);
+  return p;
+}
+
+// The main axis in z's place.
+static inline Points swapped_corner(Triangles t, int corner, uint axis) {
+  Points p;
+  p.x = coordinate(t, 3 * corner + (axis == 0u ? 2 : 0));
+  p.y = coordinate(t, 3 * corner + (axis == 1u ? 2 : 1));
+  p.z = coordinate(t, 3 * corner + axis);
   return p;
 }
 
@@ -74,14 +102,18 @@ static inline Triangles triangles_from(GEOMETRY g, uint slot) {
   return t;
 }
 
-static inline Points points_of(Triangles t, int corner) {
-  Points p;
-  p.x = t.corner[corner].x;
-  p.y = t.corner[corner].y;
-  p.z = t.corner[corner].z;
-  return p;
+static inline Points points_of(Triangles t, int corner) { return point_in_all(t.corner[corner]); }
+
+static inline Points swapped_corner(Triangles t, int corner, uint axis) {
+  return point_in_all(swapped(axis, t.corner[corner]));
 }
 
 #endif
+
+static inline void bounds_of(Triangles t, Points* lo, Points* hi) {
+  const Points p0 = points_of(t, 0), p1 = points_of(t, 1), p2 = points_of(t, 2);
+  *lo = smaller_points(smaller_points(p0, p1), p2);
+  *hi = larger_points(larger_points(p0, p1), p2);
+}
 
 #endif

@@ -1,6 +1,6 @@
-// How many triangles are tested at once: one, or in the wide layout eight, a lane of a vector each. The
-// test is one text for both (triangle.h): Real is a number of each triangle, Mask what a comparison
-// says of each, to be joined by &, | and !.
+// How many pairs of a ray and a triangle are tested at once: one, or in the wide layout eight, a lane of a
+// vector each: one ray with eight triangles, or eight rays with one. The test is one text for all
+// (triangle.h): Real is a number of each pair, Mask what a comparison says of each, to be joined by &, | and !.
 #ifndef FACET_LANES_H
 #define FACET_LANES_H
 
@@ -17,7 +17,7 @@ typedef float Real;
 typedef int Mask;
 #endif
 
-// A point of each triangle.
+// A point of each.
 typedef struct {
   Real x, y, z;
 } Points;
@@ -25,19 +25,28 @@ typedef struct {
 static inline Real larger_each(Real a, Real bound) { return FACET_CULL_MAX(a, bound); }
 static inline Real smaller_each(Real a, Real bound) { return FACET_CULL_MIN(a, bound); }
 
-static inline Points smallest_of(Points a, Points b, Points c) {
+static inline Points smaller_points(Points a, Points bound) {
   Points p;
-  p.x = smaller_each(smaller_each(a.x, b.x), c.x);
-  p.y = smaller_each(smaller_each(a.y, b.y), c.y);
-  p.z = smaller_each(smaller_each(a.z, b.z), c.z);
+  p.x = smaller_each(a.x, bound.x);
+  p.y = smaller_each(a.y, bound.y);
+  p.z = smaller_each(a.z, bound.z);
   return p;
 }
 
-static inline Points largest_of(Points a, Points b, Points c) {
+static inline Points larger_points(Points a, Points bound) {
   Points p;
-  p.x = larger_each(larger_each(a.x, b.x), c.x);
-  p.y = larger_each(larger_each(a.y, b.y), c.y);
-  p.z = larger_each(larger_each(a.z, b.z), c.z);
+  p.x = larger_each(a.x, bound.x);
+  p.y = larger_each(a.y, bound.y);
+  p.z = larger_each(a.z, bound.z);
+  return p;
+}
+
+// The main axis changes places with z.
+static inline Points swapped_points(uint axis, Points a) {
+  Points p;
+  p.x = axis == 0u ? a.z : a.x;
+  p.y = axis == 1u ? a.z : a.y;
+  p.z = axis == 0u ? a.x : axis == 1u ? a.y : a.z;
   return p;
 }
 
@@ -50,12 +59,38 @@ static inline float in_lane(Real x, uint lane) {
   return all[lane];
 }
 static inline bool is_in(Mask m, uint lane) { return lanes_of(m) >> lane & 1u; }
+static inline bool is_all(Mask m) { return lanes_of(m) == (1u << FACET_LANES) - 1u; }
+
+static inline float least_of(Real a) {
+  const float4 b = FACET_CULL_MIN(a.lo, a.hi);
+  const float2 c = FACET_CULL_MIN(b.lo, b.hi);
+  return cull_min1(c.x, c.y);
+}
+static inline float most_of(Real a) {
+  const float4 b = FACET_CULL_MAX(a.lo, a.hi);
+  const float2 c = FACET_CULL_MAX(b.lo, b.hi);
+  return cull_max1(c.x, c.y);
+}
+
+// A lane of what lies in memory.
+static inline float stored_lane(const Real* x, uint lane) { return ((const float*)x)[lane]; }
+static inline float3 point_in_lane(const Points* p, uint lane) {
+  return (float3)(stored_lane(&p->x, lane), stored_lane(&p->y, lane), stored_lane(&p->z, lane));
+}
 #else
 static inline uint lanes_where(Mask m) { return m ? 1u : 0u; }
 static inline Real in_all(float x) { return x; }
 static inline float in_lane(Real x, uint lane) { return x; }
 static inline bool is_in(Mask m, uint lane) { return m; }
 #endif
+
+static inline Points point_in_all(float3 a) {
+  Points p;
+  p.x = in_all(a.x);
+  p.y = in_all(a.y);
+  p.z = in_all(a.z);
+  return p;
+}
 
 static inline bool is_none(Mask m) { return lanes_where(m) == 0u; }
 

@@ -22,6 +22,9 @@ struct FACET_ALIGNED Node {
 // The wide layout, for CPUs: eight children to a node, triangles in blocks of eight.
 #define FACET_BLOCK 8u
 
+// Rays that a work-item traces together, where it does (packet.h).
+#define FACET_PACKET 32u
+
 // As Node. A leaf is one block of triangles, or one instance. An absent child has bounds that no ray
 // meets: lo = INFINITY, hi = -INFINITY.
 struct FACET_ALIGNED WideNode {

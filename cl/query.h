@@ -83,11 +83,11 @@ static inline uint instance_of(const Scene* s, uint place) {
 #endif
 }
 
-// Whether of two hits at one distance a triangle comes before the query's own.
-static inline bool is_before(const Scene* s, uint place, uint slot, const Query* q) {
-  const uint instance = instance_of(s, place), best = instance_of(s, q->place);
+// Whether of two hits at one distance a triangle comes before the best so far.
+static inline bool is_before(const Scene* s, uint place, uint slot, uint best_place, uint best_slot) {
+  const uint instance = instance_of(s, place), best = instance_of(s, best_place);
   return instance < best ||
-         (instance == best && s->infos[slot].triangle < s->infos[q->slot].triangle);
+         (instance == best && s->infos[slot].triangle < s->infos[best_slot].triangle);
 }
 
 // Takes in that the query's ray meets the triangle in `slot` at t; true if the query is answered.
@@ -107,7 +107,7 @@ static inline bool take_hit(const Scene* s, uint place, uint slot, float t, bool
     return true;
   }
   // Of the triangles that are tested at once, one may lie beyond another that was just taken.
-  if (t >= q->t && (t > q->t || (q->slot != FACET_NONE && !is_before(s, place, slot, q)))) return false;
+  if (t >= q->t && (t > q->t || (q->slot != FACET_NONE && !is_before(s, place, slot, q->place, q->slot)))) return false;
   q->t = t;
   q->place = place;
   q->slot = slot;
@@ -119,8 +119,9 @@ static inline bool take_hit(const Scene* s, uint place, uint slot, float t, bool
 static inline bool meet_triangles(const Scene* s, GEOMETRY positions, const Space* space, uint place,
                                   Interval outer, uint first, float tmin, uint mode, Query* q) {
   TriangleHits hits;
-  uint left = hit_triangles(space, triangles_from(positions, first), outer, tmin, q->t,
-                            mode == FACET_CROSSINGS, &hits);
+  const Rays ray = in_all_lanes(space);
+  uint left = lanes_where(hit_triangles(&ray, triangles_from(positions, first), outer, in_all(tmin),
+                                        in_all(q->t), true, mode == FACET_CROSSINGS, &hits));
   for (; left != 0u; left = without_first(left)) {
     const uint lane = first_lane(left);
     const bool is_crossing = mode == FACET_CROSSINGS;

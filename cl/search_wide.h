@@ -20,7 +20,7 @@ static inline float near_of(ulong entry) { return as_float((uint)(entry >> 32));
 // some block comes, or nothing.
 static inline void fetch_child(const Scene* s, GEOMETRY positions, uint child) {
   __global const void* node = s->nodes + child;
-  __global const void* block = triangles_from(positions, FACET_LEAF_FIRST(child));
+  __global const void* block = triangles_from(positions, FACET_LEAF_FIRST(child)).first;
   fetch_lines(child & FACET_LEAF_BIT ? block : node, sizeof(WideNode));
 }
 
@@ -66,11 +66,10 @@ static inline uint push_unsorted(const Scene* s, GEOMETRY positions, __global co
 // Depth first, the nearest child first. A node leaves at most seven children waiting, so seven times
 // the depth of the trees, and one for the mark, are enough for the stack: FACET_STACK is at least
 // that (host/tracer/wide_geometry.cpp), and it cannot overflow.
-static inline void search(const Scene* s, GEOMETRY positions, float3 o, float3 d, float tmin, uint mode,
-                          Space* space, Query* q) {
+static inline void search_from(const Scene* s, GEOMETRY positions, uint node, float3 o, float3 d, float tmin,
+                               uint mode, Space* space, Query* q) {
   ulong stack[FACET_STACK];
   int top = 0;
-  uint node = s->root;
   Interval outer = {-INFINITY, INFINITY};
   uint place = 0u;
   Sides sides = near_sides(space->slabs);
@@ -119,6 +118,11 @@ static inline void search(const Scene* s, GEOMETRY positions, float3 o, float3 d
     } while (near_of(entry) > q->t || entry == FACET_INSTANCE_ENDS);
     node = (uint)entry;
   }
+}
+
+static inline void search(const Scene* s, GEOMETRY positions, float3 o, float3 d, float tmin, uint mode,
+                          Space* space, Query* q) {
+  search_from(s, positions, s->root, o, d, tmin, mode, space, q);
 }
 
 #endif

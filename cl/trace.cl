@@ -1,11 +1,8 @@
 // Rays from a buffer, hits to a buffer: one ray a work-item.
-#include "traverse.h"
+#include "trace.h"
 
 static inline void write_hit(__global Hit* hits, __global uint* instances, size_t i, const Query* q) {
-  hits[i].t = q->t;
-  hits[i].u = q->u;
-  hits[i].v = q->v;
-  hits[i].triangle = q->triangle;
+  hits[i] = hit_of(q);
 #ifndef FACET_NO_INSTANCES
   instances[i] = q->instance;
 #endif
@@ -19,8 +16,7 @@ __kernel void trace_closest(__global const World* world, __global const SceneNod
   const size_t i = get_global_id(0);
   if (i >= count) return;
   const Scene s = scene_of(world, nodes, instances, infos, materials, faults);
-  const Query q = traverse(&s, positions, vec_global(rays[i].origin), vec_global(rays[i].direction),
-                           rays[i].tmin, rays[i].tmax, FACET_CLOSEST);
+  const Query q = traced_query(&s, positions, rays + i, FACET_CLOSEST);
   write_hit(hits, hit_instances, i, &q);
 }
 
@@ -33,11 +29,6 @@ __kernel void trace_any(__global const World* world, __global const SceneNode* n
   const size_t i = get_global_id(0);
   if (i >= count) return;
   const Scene s = scene_of(world, nodes, instances, infos, materials, faults);
-  Query q = traverse(&s, positions, vec_global(rays[i].origin), vec_global(rays[i].direction),
-                     rays[i].tmin, rays[i].tmax, FACET_ANY);
-  if (q.triangle != FACET_NONE) {
-    q.t = 0.0f;
-    q.instance = 0u;
-  }
+  const Query q = traced_query(&s, positions, rays + i, FACET_ANY);
   write_hit(hits, hit_instances, i, &q);
 }

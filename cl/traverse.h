@@ -24,8 +24,7 @@ static inline void finish(const Scene* s, GEOMETRY positions, float3 o, float3 d
   space_of(space, map_point(i->object_from_world, o), map_vector(i->object_from_world, d),
            vec_global(i->reach));
 #endif
-  const float2 shares =
-      shares_of(space, triangles_from(positions, q->slot / FACET_LANES), q->slot % FACET_LANES);
+  const float2 shares = shares_in_slot(space, positions, q->slot);
   q->u = shares.x;
   q->v = shares.y;
 }

@@ -9,77 +9,24 @@
 #ifndef FACET_TRIANGLE_H
 #define FACET_TRIANGLE_H
 
-#include "box.h"
 #include "geometry.h"
+#include "space.h"
 
-// A ray in one space, with all that the tests need of it.
-typedef struct {
-  float3 o;
-  Slabs slabs;
-  uint axis;        // of the largest |d_i|
-  bool is_turned;   // what turns counter-clockwise as seen by the ray turns clockwise once sheared
-  float2 shear;     // d_x / d_z, d_y / d_z of the swapped direction
-  float unit;       // 2^-e, e being the exponent of E (box.h): sheared z stay below 2
-  float t_of_unit;  // 2^e / d_z: what a sheared z of 1 is in t
-} Space;
-
-// The main axis changes places with z, which takes fewer choices than moving all three in a circle.
-static inline float3 swapped(uint axis, float3 a) {
-  return (float3)(axis == 0u ? a.z : a.x, axis == 1u ? a.z : a.y,
-                  axis == 0u ? a.x : axis == 1u ? a.y : a.z);
-}
-
-// False if the direction cannot be used: not finite, 0, or its largest component outside
-// 2^-60 to 2^60; or an origin beyond 2^60. Such a ray meets nothing.
-static inline bool space_of(Space* s, float3 o, float3 d, float3 reach) {
-  const float3 a = fabs(d);
-  s->axis = a.y > a.x ? (a.z > a.y ? 2u : 1u) : (a.z > a.x ? 2u : 0u);
-  const float largest = larger(a.x, larger(a.y, a.z));
-  const float3 p = fabs(o);
-  // The negated comparison refuses a NaN in any component.
-  if (!(a.x <= 1.152921504606847e18f && a.y <= 1.152921504606847e18f &&
-        a.z <= 1.152921504606847e18f && largest >= 8.673617379884035e-19f &&
-        p.x <= 1.152921504606847e18f && p.y <= 1.152921504606847e18f &&
-        p.z <= 1.152921504606847e18f))
-    return false;
-  const float3 main = swapped(s->axis, d);
-  s->o = o;
-  s->is_turned = (main.z < 0.0f) != (s->axis != 2u);
-  const float3 over_z = (float3)(main.x, main.y, 1.0f) / main.z;
-  s->shear = over_z.xy;
-  const float3 e = fabs(o) + reach;
-  const float extent = larger(e.x, larger(e.y, e.z));
-  const uint exponent = as_uint(larger(extent, 0x1p-60f)) & 0x7f800000u;
-  s->unit = as_float(0x7f000000u - exponent);
-  s->t_of_unit = over_z.z * as_float(exponent);
-  s->slabs = slabs_of(o, d, extent, largest);
-  return true;
-}
-
-// Corners relative to the ray's origin, the main axis in z's place.
-static inline Points relative(const Space* s, Triangles t, int corner) {
-  Points a;
-#ifdef FACET_WIDE
-  const float3 o = swapped(s->axis, s->o);
-  __global const float* p = (__global const float*)(t + 3 * corner);
-  a.x = *(Triangles)(p + (s->axis == 0u ? 2u * FACET_BLOCK : 0u)) - o.x;
-  a.y = *(Triangles)(p + (s->axis == 1u ? 2u * FACET_BLOCK : FACET_BLOCK)) - o.y;
-  a.z = *(Triangles)(p + s->axis * FACET_BLOCK) - o.z;
-#else
-  const float3 p = swapped(s->axis, t.corner[corner] - s->o);
-  a.x = p.x;
-  a.y = p.y;
-  a.z = p.z;
-#endif
+// Corners relative to the rays' origins, the main axis in z's place.
+static inline Points relative(const Rays* r, Triangles t, int corner) {
+  Points a = swapped_corner(t, corner, r->axis);
+  a.x = a.x - r->o.x;
+  a.y = a.y - r->o.y;
+  a.z = a.z - r->o.z;
   return a;
 }
 
-// The same, sheared so that the ray is the z axis from the origin on.
-static inline Points sheared(const Space* s, Triangles t, int corner) {
-  Points a = relative(s, t, corner);
-  a.x = fma(in_all(-s->shear.x), a.z, a.x);
-  a.y = fma(in_all(-s->shear.y), a.z, a.y);
-  a.z = s->unit * a.z;
+// The same, sheared so that each ray is the z axis from the origin on.
+static inline Points sheared(const Rays* r, Triangles t, int corner) {
+  Points a = relative(r, t, corner);
+  a.x = fma(-r->shear_x, a.z, a.x);
+  a.y = fma(-r->shear_y, a.z, a.y);
+  a.z = r->unit * a.z;
   return a;
 }
 
@@ -110,37 +57,38 @@ static inline Real edge_sign(Real e, Points p, Points q) {
 
 typedef struct {
   Real t;
+  Real v, w, det;   // shares of the second and third corner, in units of det
   Mask is_front;    // the ray enters through the side on which the corners turn counter-clockwise
   Mask is_counted;  // this triangle, not a neighbour, owns the edge or corner that is met
 } TriangleHits;
 
-// Along one axis, where the ray enters, or leaves, the triangles' boxes.
-static inline Real crossing_of(Real lo, Real hi, float inverse, bool is_lower, float offset) {
-  return fma(is_lower ? lo : hi, in_all(inverse), in_all(offset));
+// Along one axis, where a ray enters a triangle's box, or with the other side first leaves it.
+static inline Real crossing_of(Real lo, Real hi, Real inverse, Real offset) {
+  return fma(inverse > 0.0f ? lo : hi, inverse, offset);
 }
 
 // Holds t to the interval of the triangle's own box, cut with `outer`: so no node that leads to the
 // triangle can have been left out (box.h). False where the two have nothing in common. It is
 // hardly ever needed.
-static inline Mask hold_to_boxes(const Space* s, Triangles p, Interval outer, Real* t) {
-  const Points p0 = points_of(p, 0), p1 = points_of(p, 1), p2 = points_of(p, 2);
-  const Points lo = smallest_of(p0, p1, p2), hi = largest_of(p0, p1, p2);
-  const float3 d = s->slabs.inverse, n = s->slabs.near_offset, f = s->slabs.far_offset;
+static inline Mask hold_to_boxes(const Rays* r, Triangles p, Interval outer, Real* t) {
+  Points lo, hi;
+  bounds_of(p, &lo, &hi);
+  const Points d = r->inverse, n = r->near_offset, f = r->far_offset;
   Real near = in_all(outer.near), far = in_all(outer.far);
-  near = larger_each(crossing_of(lo.x, hi.x, d.x, d.x > 0.0f, n.x), near);
-  near = larger_each(crossing_of(lo.y, hi.y, d.y, d.y > 0.0f, n.y), near);
-  near = larger_each(crossing_of(lo.z, hi.z, d.z, d.z > 0.0f, n.z), near);
-  far = smaller_each(crossing_of(lo.x, hi.x, d.x, !(d.x > 0.0f), f.x), far);
-  far = smaller_each(crossing_of(lo.y, hi.y, d.y, !(d.y > 0.0f), f.y), far);
-  far = smaller_each(crossing_of(lo.z, hi.z, d.z, !(d.z > 0.0f), f.z), far);
+  near = larger_each(crossing_of(lo.x, hi.x, d.x, n.x), near);
+  near = larger_each(crossing_of(lo.y, hi.y, d.y, n.y), near);
+  near = larger_each(crossing_of(lo.z, hi.z, d.z, n.z), near);
+  far = smaller_each(crossing_of(hi.x, lo.x, d.x, f.x), far);
+  far = smaller_each(crossing_of(hi.y, lo.y, d.y, f.y), far);
+  far = smaller_each(crossing_of(hi.z, lo.z, d.z, f.z), far);
   const Real after = *t < near ? near : *t;
   // One zero: that of a face may have either sign.
   *t = (after > far ? far : after) + 0.0f;
   return near <= far;
 }
 
-// The lanes of the triangles that the ray meets with t in tmin..tmax; the edges belong to the triangle.
-// t lies in the interval of the triangle's own box and in `outer`, that of its instance's box in the world.
+// The lanes whose rays meet their triangles with t in tmin..tmax; the edges belong to the triangle. `many`: few of
+// them will, a literal, as `count` is: whether is_front and is_counted are asked for. t lies in the interval of the triangle's own box and in `outer`, that of its instance's box in the world.
 //
 // It does so by itself, unless an underflow or an instance's maps come between. With u, v, w as they
 // come out, each within 2u of the edge function of the sheared corners, b = u / (u+v+w) and so on are
@@ -152,19 +100,21 @@ static inline Mask hold_to_boxes(const Space* s, Triangles p, Interval outer, Re
 // Nothing overflows: x and y are below 2^62, edge functions below 2^125, z at most 2. Edge
 // functions have lost no more than 2^-147 to underflow: with |det| >= 2^-120 that is below u E / 2, and
 // with |top| >= 2^-100 that of its products is below u |t|.
-static inline uint hit_triangles(const Space* s, Triangles p, Interval outer, float tmin, float tmax,
-                                 bool count, TriangleHits* hits) {
-  const Points a = sheared(s, p, 0), b = sheared(s, p, 1), c = sheared(s, p, 2);
-  // Most triangles that are tested are passed by: these need no more than the signs.
-  const Mask near_by = is_within(rough_edge(c, b), rough_edge(a, c), rough_edge(b, a));
-  if (is_none(near_by)) return 0u;
+INLINED Mask hit_triangles(const Rays* r, Triangles p, Interval outer, Real tmin, Real tmax, bool many,
+                           bool count, TriangleHits* hits) {
+  const Points a = sheared(r, p, 0), b = sheared(r, p, 1), c = sheared(r, p, 2);
+  // Most of many triangles are passed by: these need no more than the signs.
+  if (many) {
+    const Mask near_by = is_within(rough_edge(c, b), rough_edge(a, c), rough_edge(b, a));
+    if (is_none(near_by)) return near_by;
+  }
   const Real u = edge_function(c, b), v = edge_function(a, c), w = edge_function(b, a);
   const Real det = (u + v) + w;
-  Mask met = is_within(u, v, w) & (det != 0.0f);
-  if (is_none(met)) return 0u;
+  Mask met = is_within(u, v, w);
+  if (is_none(met)) return met;
   const Real top = fma(w, c.z, fma(v, b.z, u * a.z));
-  Real t = top / det * s->t_of_unit;
-  // |top| >= 2^-100 and |det| >= 2^-120. Without instances `outer` holds everything.
+  Real t = top / det * r->t_of_unit;
+  // |top| >= 2^-100 and |det| >= 2^-120, so that it is not 0. Without instances `outer` holds everything.
   Mask is_sure = smaller_each(fabs(top), fabs(det) * 0x1p20f) >= 0x1p-100f;
 #ifndef FACET_NO_INSTANCES
   is_sure &= (t >= outer.near) & (t <= outer.far);
@@ -172,25 +122,28 @@ static inline uint hit_triangles(const Space* s, Triangles p, Interval outer, fl
   const Mask is_held = met & !is_sure;
   if (!is_none(is_held)) {
     Real held = t;
-    met &= hold_to_boxes(s, p, outer, &held) | !is_held;
+    met &= (hold_to_boxes(r, p, outer, &held) & (det != 0.0f)) | !is_held;
     t = is_held ? held : t;
   }
   hits->t = t;
+  hits->v = v, hits->w = w, hits->det = det;
   if (count) {
     const Real su = edge_sign(u, c, b), sv = edge_sign(v, a, c), sw = edge_sign(w, b, a);
     hits->is_counted = ((su > 0.0f) & (sv > 0.0f) & (sw > 0.0f)) | ((su < 0.0f) & (sv < 0.0f) & (sw < 0.0f));
-    hits->is_front = s->is_turned ? !(su > 0.0f) : su > 0.0f;
+    hits->is_front = r->is_turned ? !(su > 0.0f) : su > 0.0f;
   }
-  return lanes_where(met & (t >= tmin) & (t <= tmax));
+  return met & (t >= tmin) & (t <= tmax);
 }
 
-// Where the ray meets a triangle that hit_triangles has accepted: the hit's u and v, the shares of p1
-// and p2. Computed anew for the one triangle that is left when a search has ended.
-static inline float2 shares_of(const Space* s, Triangles p, uint lane) {
-  const Points a = sheared(s, p, 0), b = sheared(s, p, 1), c = sheared(s, p, 2);
+// Where the ray meets the triangle in a slot, which hit_triangles has accepted: the hit's u and v, the shares
+// of p1 and p2. Computed anew for the one triangle that is left when a search has ended.
+static inline float2 shares_in_slot(const Space* s, GEOMETRY positions, uint slot) {
+  const Rays ray = in_all_lanes(s), *r = &ray;
+  const Triangles p = triangles_from(positions, slot / FACET_LANES);
+  const Points a = sheared(r, p, 0), b = sheared(r, p, 1), c = sheared(r, p, 2);
   const Real u = edge_function(c, b), v = edge_function(a, c), w = edge_function(b, a);
   const Real det = (u + v) + w;
-  return (float2)(in_lane(v / det, lane), in_lane(w / det, lane));
+  return (float2)(in_lane(v / det, slot % FACET_LANES), in_lane(w / det, slot % FACET_LANES));
 }
 
 #endif

@@ -37,6 +37,9 @@ struct tracing_options {
   bool serial_double() const { return device == "serial-double"; }
 };
 
+/// --packets, of rays from a file.
+void add_packets(CLI::App& app, tracer::options& target);
+
 /// --device; `serial_too`: the serial tracers can be chosen.
 void add_device(CLI::App& app, std::string& target, bool serial_too);
 /// --geometry, --kernels, --all-features

@@ -120,7 +120,8 @@ void write_hits(const std::string& path, const std::vector<tracer::hit>& hits) {
 }
 
 int run(const arguments& o) {
-  if (o.tracing.serial()) refuse_with_serial(*o.app, {"--geometry", "--kernels", "--all-features"});
+  if (o.tracing.serial())
+    refuse_with_serial(*o.app, {"--geometry", "--kernels", "--packets", "--all-features"});
   check_outputs(o);
   const scene s = scene_of_word(o.mesh);
   o.say.notes(s.notes);
@@ -181,6 +182,7 @@ command add_trace(CLI::App& program) {
       ->type_name("N")
       ->check(whole_number(1, 100000, "times"));
   add_tracing(*app, o->tracing);
+  add_packets(*app, o->tracing.tracer);
   app->add_option("--stats", o->stats, "Write times and choices to this file, as JSON")
       ->type_name("FILE");
   add_console(*app, o->say);

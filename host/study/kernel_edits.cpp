@@ -20,66 +20,77 @@ static inline Points less(Points a, Points b) {
   return c;
 }
 
-static inline Points one_point(float3 a) {
-  Points c;
-  c.x = in_all(a.x), c.y = in_all(a.y), c.z = in_all(a.z);
-  return c;
+static inline Points first_corner(Triangles t, const Rays* r, Points* e1, Points* e2) {
+  const Points p0 = swapped_corner(t, 0, r->axis);
+  *e1 = less(swapped_corner(t, 1, r->axis), p0);
+  *e2 = less(swapped_corner(t, 2, r->axis), p0);
+  return p0;
 }
 
-static inline uint hit_triangles(const Space* s, Triangles t, Interval outer, float tmin, float tmax,
-                                 bool count, TriangleHits* hits) {
-  const Points p0 = points_of(t, 0), d = one_point(s->direction);
-  const Points e1 = less(points_of(t, 1), p0), e2 = less(points_of(t, 2), p0);
-  const Points p = cross_each(d, e2), o = less(one_point(s->o), p0);
+INLINED Mask hit_triangles(const Rays* r, Triangles t, Interval outer, Real tmin, Real tmax, bool many, bool count,
+                           TriangleHits* hits) {
+  Points e1, e2;
+  const Points p0 = first_corner(t, r, &e1, &e2), d = r->direction;
+  const Points p = cross_each(d, e2), o = less(r->o, p0);
   const Real inverse = 1.0f / dot_each(e1, p);
   const Real u = dot_each(o, p) * inverse;
   Mask met = (u >= 0.0f) & (u <= 1.0f);
-  if (is_none(met)) return 0u;
+  if (is_none(met)) return met;
   const Points q = cross_each(o, e1);
   const Real v = dot_each(d, q) * inverse;
   met &= (v >= 0.0f) & (u + v <= 1.0f);
-  if (is_none(met)) return 0u;
+  if (is_none(met)) return met;
   hits->t = dot_each(e2, q) * inverse;
-  hits->is_front = inverse > 0.0f;
+  hits->v = u, hits->w = v, hits->det = in_all(1.0f);
+  hits->is_front = r->axis == 2u ? inverse > 0.0f : inverse < 0.0f;
   hits->is_counted = met;
-  return lanes_where(met & (hits->t >= tmin) & (hits->t <= tmax));
+  return met & (hits->t >= tmin) & (hits->t <= tmax);
 }
 
-static inline float2 shares_of(const Space* s, Triangles t, uint lane) {
-  const Points p0 = points_of(t, 0), d = one_point(s->direction);
-  const Points e1 = less(points_of(t, 1), p0), e2 = less(points_of(t, 2), p0);
-  const Points p = cross_each(d, e2), o = less(one_point(s->o), p0);
+static inline float2 shares_in_slot(const Space* s, GEOMETRY positions, uint slot) {
+  const Rays r = in_all_lanes(s);
+  Points e1, e2;
+  const Points p0 = first_corner(triangles_from(positions, slot / FACET_LANES), &r, &e1, &e2);
+  const Points p = cross_each(r.direction, e2), o = less(r.o, p0);
   const Real inverse = 1.0f / dot_each(e1, p);
-  return (float2)(in_lane(dot_each(o, p) * inverse, lane),
-                  in_lane(dot_each(d, cross_each(o, e1)) * inverse, lane));
+  return (float2)(in_lane(dot_each(o, p) * inverse, slot % FACET_LANES),
+                  in_lane(dot_each(r.direction, cross_each(o, e1)) * inverse, slot % FACET_LANES));
 }
 
 #endif
 )";
 
 const char* const end_of_shares =
-    "  return (float2)(in_lane(v / det, lane), in_lane(w / det, lane));\n}\n";
+    "  return (float2)(in_lane(v / det, slot % FACET_LANES), in_lane(w / det, slot % "
+    "FACET_LANES));\n}\n";
 
 }  // namespace
 
 kernel_edits with_direction() {
-  return {
-      {"triangle.h", "typedef struct {\n  float3 o;", "typedef struct {\n  float3 o, direction;"},
-      {"triangle.h", "  s->o = o;\n", "  s->o = o;\n  s->direction = d;\n"}};
+  return {{"space.h", "  float3 o;\n", "  float3 o, direction;\n"},
+          {"space.h", "  s->o = o;\n", "  s->o = o;\n  s->direction = d;\n"},
+          {"space.h", "  Points o;  // the main", "  Points direction, o;  // the main"},
+          {"space.h", "  r.shear_x = ",
+           "  r.direction = point_in_all(swapped(s->axis, s->direction));\n  r.shear_x = "},
+          {"space.h", "  r->shear_x = ", "  r->direction = main;\n  r->shear_x = "},
+          {"space.h", "  s.axis = r->axis;\n",
+           "  s.direction = swapped(r->axis, point_in_lane(&r->direction, lane));\n  s.axis = "
+           "r->axis;\n"}};
 }
 
 kernel_edits moller_trumbore_test() {
-  return joined(
-      {with_direction(),
-       {{"triangle.h", "static inline uint hit_triangles(", "static inline uint unused_test("},
-        {"triangle.h", "static inline float2 shares_of(", "static inline float2 unused_shares("},
-        {"triangle.h", std::string(end_of_shares) + "\n#endif\n",
-         std::string(end_of_shares) + moller_trumbore}}});
+  return joined({with_direction(),
+                 {{"triangle.h", "INLINED Mask hit_triangles(", "static inline Mask unused_test("},
+                  {"triangle.h", "static inline float2 shares_in_slot(",
+                   "static inline float2 unused_shares("},
+                  {"triangle.h", std::string(end_of_shares) + "\n#endif\n",
+                   std::string(end_of_shares) + moller_trumbore}}});
 }
 
 kernel_edits unpadded_slabs() {
   return {{"box.h", "const float3 p = pad * fabs(s.inverse);",
-           "const float3 p = (float3)(0.0f * pad);"}};
+           "const float3 p = (float3)(0.0f * pad);"},
+          {"space.h", "const Real p = pad * fabs(*inverse)", "const Real p = in_all(0.0f)"}};
 }
 
 kernel_edits rounded_edges() {

@@ -6,16 +6,21 @@ namespace facet::study {
 namespace {
 
 kernel_edits unordered() {
-  return {{"query.h",
-           "t >= q->t && (t > q->t || (q->slot != FACET_NONE && !is_before(s, place, slot, q)))",
-           "t >= q->t"}};
+  return {
+      {"query.h",
+       "t >= q->t && (t > q->t || (q->slot != FACET_NONE && !is_before(s, place, slot, q->place, "
+       "q->slot)))",
+       "t >= q->t"},
+      {"search_packet.h", "lanes_of(met & (hits.t == p->t))", "0u"}};
 }
 
 kernel_edits unheld() { return {{"triangle.h", "if (!is_none(is_held))", "if (false)"}}; }
 
 kernel_edits unchecked() {
-  return {{"triangle.h", "largest >= 8.673617379884035e-19f &&", "true ||"},
-          {"box.h", "is_known = fabs(c) < INFINITY;", "is_known = (int3)(-1);"}};
+  return {{"space.h", "largest >= 8.673617379884035e-19f &&", "true ||"},
+          {"box.h", "is_known = fabs(c) < INFINITY;", "is_known = (int3)(-1);"},
+          {"packet.h", "if (usable != (1u << FACET_LANES) - 1u) return false;", ""},
+          {"packet.h", "return are_rays_usable(b, axis, most_of(extent));", "return true;"}};
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ std::vector<hit> device_scene::trace(std::span<const ray> rays, bool any, unsign
   if (stats) {
     *stats = {};
     stats->rays = rays.size();
-    stats->group_width = s.tuned.group;
+    stats->group_width = s.in_packets ? s.tuned.packet_group : s.tuned.group;
     stats->group_height = 1;
     s.describe(*stats);
   }
@@ -33,6 +33,8 @@ std::vector<hit> device_scene::trace(std::span<const ray> rays, bool any, unsign
   const auto start = clock::now();
   const bool with_instances = s.used.instances;
   const auto count = std::uint32_t(rays.size());
+  const std::uint32_t each = s.in_packets ? FACET_PACKET : 1,
+                      group = s.in_packets ? s.tuned.packet_group : s.tuned.group;
   runtime::buffer<Ray> in(reinterpret_cast<const Ray*>(rays.data()), rays.size());
   runtime::buffer<Hit> out(rays.size());
   runtime::buffer<std::uint32_t> instances(with_instances ? rays.size() : 1);
@@ -43,7 +45,7 @@ std::vector<hit> device_scene::trace(std::span<const ray> rays, bool any, unsign
       h.set_arg(k++, runtime::accessor{out, h, runtime::read_write});
       h.set_arg(k++, runtime::accessor{instances, h, runtime::write_only});
       h.set_arg(k++, size);
-      h.parallel_for(padded(size, s.tuned.group), kernel);
+      h.parallel_for(padded((size + each - 1) / each, group), kernel);
     });
   };
   // What only a first launch costs is paid before anything is timed: memory that nothing has
@@ -53,7 +55,7 @@ std::vector<hit> device_scene::trace(std::span<const ray> rays, bool any, unsign
     const runtime::accessor all{out, h, runtime::write_only};
     h.fill(all, Hit{});
   });
-  launch(std::min(count, s.tuned.group)).wait_and_throw();
+  launch(std::min(count, each * group)).wait_and_throw();
   for (unsigned k = 0; k < std::max(1u, repeat); ++k) {
     s.clear_faults();
     const runtime::event done = launch(count);

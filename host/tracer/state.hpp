@@ -16,6 +16,7 @@ struct device_scene::state {
   tuning tuned;
   features used;
   bool in_images = false;
+  bool in_packets = false;  ///< trace takes FACET_PACKET rays a work-item
   runtime::source_tree kernels;
   scene model;  ///< without its meshes: camera, lights and limits of later pictures
   std::vector<std::uint32_t> camera_media;  ///< around the camera, innermost first

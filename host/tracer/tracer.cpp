@@ -50,6 +50,18 @@ bool is_wide(const options& o, bool in_images, const tuning& t) {
          (o.layout == layout_kind::automatic && t.wide_layout && !in_images);
 }
 
+bool is_in_packets(const options& o, bool is_wide, const features& used, const tuning& t) {
+  const bool can_be = is_wide && o.tree != tree_kind::none && !used.instances;
+  if (o.packets == packet_kind::on && !can_be)
+    throw runtime::exception(
+        runtime::errc::invalid,
+        "packets of rays were asked for, which take the wide layout, a tree, and "
+        "a scene of one mesh in its own place, compiled without what it does not "
+        "need; use --packets auto, or off");
+  return can_be &&
+         (o.packets == packet_kind::on || (o.packets == packet_kind::automatic && t.packets));
+}
+
 runtime::buffer<Light> light_buffer(const std::vector<Light>& lights) {
   return lights.empty() ? runtime::buffer<Light>(1)
                         : runtime::buffer<Light>(lights.data(), lights.size());
@@ -76,19 +88,21 @@ device_scene::device_scene(runtime::queue queue, const scene& s, options o,
   const features used = o.all_features ? features::all() : features::of(s);
   const bool in_images = o.geometry == geometry_kind::image ||
                          (o.geometry == geometry_kind::automatic && tuned.image_geometry);
+  const bool wide = is_wide(o, in_images, tuned);
+  const bool in_packets = is_in_packets(o, wide, used, tuned);
   runtime::source_tree kernels =
       o.kernel_folder.empty() ? kernel_sources() : runtime::read_folder(o.kernel_folder);
   for (const kernel_edit& e : o.edits) apply(e, kernels);
   packed_scene packed = pack(s, used.smooth);
   runtime::buffer<Light> lights = light_buffer(packed.lights);
   device_geometry geometry =
-      is_wide(o, in_images, tuned)
-          ? build_wide_geometry(queue, kernels, std::move(packed), used, o.tree, tuned, given)
-          : build_geometry(queue, kernels, std::move(packed), used, o.tree, in_images, tuned,
-                           given);
+      wide ? build_wide_geometry(queue, kernels, std::move(packed), used, o.tree, tuned, given)
+           : build_geometry(queue, kernels, std::move(packed), used, o.tree, in_images, tuned,
+                            given);
+
   state_ = std::make_unique<state>(
-      state{queue, std::move(o), tuned, used, in_images, std::move(kernels), without_meshes(s),
-            media_at(s, s.view.position), std::move(geometry), std::move(lights),
+      state{queue, std::move(o), tuned, used, in_images, in_packets, std::move(kernels),
+            without_meshes(s), media_at(s, s.view.position), std::move(geometry), std::move(lights),
             runtime::buffer<Faults>(1), std::nullopt, std::nullopt, std::nullopt, 0});
 }
 
@@ -113,7 +127,7 @@ kernel_description device_scene::describe_render(std::uint32_t max_depth) {
 
 runtime::kernel device_scene::state::trace_kernel(bool any) {
   if (!trace_program)
-    trace_program = compiled(queue, kernels, "trace.cl",
+    trace_program = compiled(queue, kernels, in_packets ? "trace_packets.cl" : "trace.cl",
                              traversal_options(used, model.nesting, chosen.tree, in_images,
                                                geometry.is_wide, geometry.stack, 0, tuned) +
                                  register_cap(tuned.trace_registers));
@@ -196,6 +210,7 @@ void device_scene::state::describe(statistics& s) const {
   s.build_ms = geometry.build_ms;
   s.geometry = in_images ? "image" : "buffer";
   s.layout = geometry.is_wide ? "wide" : "narrow";
+  s.rays_a_work_item = in_packets ? FACET_PACKET : 1;
   s.features = used.names();
   s.tree_depth = geometry.depth;
   s.tree_nodes = geometry.nodes_used;

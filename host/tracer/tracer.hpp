@@ -27,6 +27,11 @@ enum class geometry_kind { automatic, buffer, image };
 enum class layout_kind { automatic, narrow, wide };
 
 /// A change of the kernels' text: `from`, which must stand in `file` exactly once, becomes `to`.
+/// Whether a work-item of `trace` takes FACET_PACKET rays (cl/layout.h), together where they stay
+/// close, or one. It can in the wide layout, with a tree, where a scene has one mesh in its own
+/// place.
+enum class packet_kind { automatic, on, off };
+
 struct kernel_edit {
   std::string file, from, to;
 };
@@ -35,6 +40,7 @@ struct options {
   tree_kind tree = tree_kind::binned;
   geometry_kind geometry = geometry_kind::automatic;
   layout_kind layout = layout_kind::automatic;
+  packet_kind packets = packet_kind::automatic;
   std::uint32_t group_width = 0, group_height = 0;  ///< work-group; 0: the device's default
   bool driver_group = false;                        ///< the driver chooses the work-group instead
   std::uint32_t tile_width = 0, tile_height = 0;    ///< pixels a launch; 0: about 50 ms each
@@ -106,9 +112,10 @@ struct statistics {
   std::uint64_t rays = 0;         ///< trace: those given; render: eye rays
   std::uint32_t group_width = 0, group_height = 0;  ///< 0 where the driver chose
   std::uint32_t tiles = 0;
-  std::string geometry;  ///< "image" or "buffer", as chosen
-  std::string layout;    ///< "wide" or "narrow", as chosen
-  std::string features;  ///< what the kernel was compiled with, comma-separated
+  std::string geometry;                ///< "image" or "buffer", as chosen
+  std::string layout;                  ///< "wide" or "narrow", as chosen
+  std::uint32_t rays_a_work_item = 1;  ///< of trace
+  std::string features;                ///< what the kernel was compiled with, comma-separated
   std::uint32_t tree_depth = 0;
   std::uint64_t tree_nodes = 0;
   std::uint64_t device_bytes = 0;

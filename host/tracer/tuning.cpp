@@ -19,6 +19,7 @@ tuning tuning_for(const runtime::device& d) {
   t.correctly_rounded = d.has_correctly_rounded_divide_sqrt();
   t.hardware_minmax = d.is_gpu();
   t.wide_layout = !d.is_gpu();
+  t.packets = !d.is_gpu();
   if (d.is_gpu()) t.block_run = 1;
   t.sort = sort_tuning_for(d);
   t.bounds_groups = 4 * d.max_compute_units();

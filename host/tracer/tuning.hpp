@@ -10,7 +10,8 @@
 namespace facet::tracer {
 
 struct tuning {
-  std::uint32_t group = 64;  ///< work-items a group of one-dimensional kernels
+  std::uint32_t group = 64;        ///< work-items a group of one-dimensional kernels
+  std::uint32_t packet_group = 4;  ///< of those that trace packets
   std::uint32_t render_group_width = 8,
                 render_group_height = 8;  ///< the render kernel's work-group
   std::uint32_t leaf_sure = 2;    ///< triangles: a subtree of at most so many is a leaf, ...
@@ -25,6 +26,7 @@ struct tuning {
   std::uint32_t split_group = 64;     ///< that splits a range of the top tree; at least 64
   bool image_geometry = false;        ///< what --geometry auto means
   bool wide_layout = false;           ///< what layout_kind::automatic means, but for images
+  bool packets = false;               ///< what packet_kind::automatic means, if they can be
   bool hardware_minmax = false;       ///< cl/device.h
   bool warps = false;                 ///< PTX of sm_70 can be written (cl/warp.h)
   std::uint32_t trace_registers = 0;  ///< of trace.cl's kernels (register_cap)

@@ -107,9 +107,12 @@ TEST_CASE(
       "  const Interval outer = {-INFINITY, INFINITY};\n"
       "  met[i] = 0u;\n"
       "  if (space_of(&s, vec_global(rays[i].origin), vec_global(rays[i].direction), "
-      "(float3)(4.0f)))\n"
-      "    met[i] = 256u | (hit_triangles(&s, triangles_from(block, 0u), outer, 0.0f,\n"
-      "                                              INFINITY, false, &hits));\n"
+      "(float3)(4.0f))) {\n"
+      "    const Rays r = in_all_lanes(&s);\n"
+      "    met[i] = 256u | lanes_where(hit_triangles(&r, triangles_from(block, 0u), outer, "
+      "in_all(0.0f),\n"
+      "                                              in_all(INFINITY), true, false, &hits));\n"
+      "  }\n"
       "}\n";
   runtime::queue& q = test::queue();
   runtime::program program(q.get_context(), sources, "absent_test.cl",

@@ -17,20 +17,23 @@ mistake moller_trumbore() {
 
 mistake determinant_epsilon() {
   return of("determinant-epsilon", "triangles with |det| < 1e-5 count as parallel",
-            {{"triangle.h", "(det != 0.0f)", "(fabs(det) >= 1e-5f)"}});
+            {{"triangle.h", "Mask met = is_within(u, v, w);",
+              "Mask met = is_within(u, v, w) & (fabs(det) >= 1e-5f);"}});
 }
 
 mistake world_plane() {
   return of(
       "world-plane", "t comes from a plane equation about the world's origin",
       joined({with_direction(),
-              {{"triangle.h", "  Real t = top / det * s->t_of_unit;",
-                "  const Points p0 = points_of(p, 0), p1 = points_of(p, 1), p2 = points_of(p, 2);\n"
+              {{"triangle.h", "  Real t = top / det * r->t_of_unit;",
+                "  const Points p0 = swapped_corner(p, 0, r->axis), p1 = swapped_corner(p, 1, "
+                "r->axis),\n"
+                "               p2 = swapped_corner(p, 2, r->axis);\n"
                 "  const Real ax = p1.x - p0.x, ay = p1.y - p0.y, az = p1.z - p0.z;\n"
                 "  const Real bx = p2.x - p0.x, by = p2.y - p0.y, bz = p2.z - p0.z;\n"
                 "  const Real nx = ay * bz - az * by, ny = az * bx - ax * bz, nz = ax * by - ay * "
                 "bx;\n"
-                "  const float3 o = s->o, d = s->direction;\n"
+                "  const Points o = r->o, d = r->direction;\n"
                 "  Real t = (((nx * p0.x + ny * p0.y) + nz * p0.z) -\n"
                 "            ((nx * o.x + ny * o.y) + nz * o.z)) /\n"
                 "           ((nx * d.x + ny * d.y) + nz * d.z);"}}}));
@@ -45,18 +48,20 @@ mistake unpadded() { return of("unpadded", "slabs without a pad", unpadded_slabs
 
 mistake far_padding() {
   return of("far-padding", "slabs padded at the far side alone",
-            {{"box.h", "is_known ? c - p :", "is_known ? c :"}});
+            {{"box.h", "is_known ? c - p :", "is_known ? c :"},
+             {"space.h", "*near_offset = c - p;", "*near_offset = c;"}});
 }
 
 mistake unchecked_direction() {
   return of("unchecked-direction", "directions and origins of any size are used",
-            {{"triangle.h", "p.z <= 1.152921504606847e18f))\n    return false;",
+            {{"space.h", "p.z <= 1.152921504606847e18f))\n    return false;",
               "p.z <= 1.152921504606847e18f)) {}"}});
 }
 
 mistake no_tie_break() {
   return of("no-tie-break", "of equal distances the first one met wins",
-            {{"query.h", "!is_before(s, place, slot, q)", "true"}});
+            {{"query.h", "!is_before(s, place, slot, q->place, q->slot)", "true"},
+             {"search_packet.h", " || is_before(s, 0u, slot, 0u, slots[lane]) ?", " ?"}});
 }
 
 mistake truncated_nodes() {
@@ -88,7 +93,7 @@ mistake short_leaves() {
 
 mistake open_points() {
   return of("open-points", "a determinant of 0 is a hit at the corner's distance",
-            {{"triangle.h", " & (det != 0.0f);", ";"},
+            {{"triangle.h", " & (det != 0.0f))", ")"},
              {"triangle.h", "Real t = top / det *", "Real t = (det == 0.0f ? a.z : top / det) *"}});
 }
 
@@ -127,8 +132,8 @@ mistake wrapped_offsets() {
   return of("wrapped-offsets",
             "byte offsets of corners wrap: at 2^19, where small meshes show it, in place of 2^31",
             {{"geometry.h", "return g[index].xyz;", "return g[index & 0x7fffu].xyz;"},
-             {"geometry.h", "(Triangles)((__global const TriangleBlock*)g + block)",
-              "(Triangles)((__global const TriangleBlock*)g + block % 0x71cu)"}});
+             {"geometry.h", "(__global const TriangleBlock*)g + block",
+              "(__global const TriangleBlock*)g + block % 0x71cu"}});
 }
 
 mistake exclusive_edges() {

@@ -1,5 +1,8 @@
 // The same hit whatever the order in which triangles are met: duplicates, every way to trace, few
 // triangles.
+#include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <string>
 
 #include "reference/tracer.hpp"
@@ -17,6 +20,7 @@ using tracer::tree_kind;
 struct way {
   std::string name;
   tracer::options options;
+  bool in_packets = false;  ///< the rays come in an order in which they can go together
 };
 
 /// The layout that the device does not choose by itself.
@@ -25,7 +29,7 @@ layout_kind other_layout(const lab& l) {
 }
 
 /// Trees, how and where geometry lies, three work-groups, features left out or not.
-std::vector<way> ways(const lab& l, bool with_brute_force) {
+std::vector<way> ways(const lab& l, bool is_one_mesh, bool with_brute_force) {
   std::vector<way> all;
   const auto add = [&](std::string name, tree_kind tree, geometry_kind geometry, std::uint32_t w,
                        std::uint32_t h, bool every_feature) {
@@ -37,6 +41,14 @@ std::vector<way> ways(const lab& l, bool with_brute_force) {
     o.all_features = every_feature;
     all.push_back({std::move(name), std::move(o)});
   };
+  if (is_one_mesh) {
+    add("binned, buffer, packets", tree_kind::binned, geometry_kind::buffer, 0, 0, false);
+    all.back().options.layout = layout_kind::wide;
+    all.back().options.packets = tracer::packet_kind::on;
+    all.back().options.compiler_flags +=
+        " -DFACET_PACKET_WIDTH=1e30f";  // however far apart they start
+    all.back().in_packets = true;
+  }
   for (const tree_kind tree : {tree_kind::binned, tree_kind::levels}) {
     const std::string name = tracer::word_of(tree);
     add(name + ", buffer, 64", tree, geometry_kind::buffer, 0, 0, false);
@@ -123,17 +135,46 @@ tracer::ray mixed_ray(const scene& s, std::uint64_t seed, std::uint64_t i) {
   return make_ray(o, to, 0, d.below(8) == 0 ? 0.7f : INFINITY);
 }
 
+/// Those with the same main axis and signs of the direction one after the other, where they are.
+std::vector<std::uint64_t> by_octant(const std::vector<tracer::ray>& rays) {
+  const auto key = [](const tracer::ray& r) {
+    int k = 0, axis = 0;
+    for (int i = 0; i < 3; ++i) {
+      k = 2 * k + std::signbit(r.direction[i]);
+      if (std::abs(r.direction[i]) > std::abs(r.direction[axis])) axis = i;
+    }
+    return 4 * k + axis;
+  };
+  std::vector<std::uint64_t> order(rays.size());
+  std::iota(order.begin(), order.end(), std::uint64_t(0));
+  std::stable_sort(order.begin(), order.end(),
+                   [&](auto a, auto b) { return key(rays[a]) < key(rays[b]); });
+  return order;
+}
+
+/// The hits of rays that are traced in that order.
+std::vector<tracer::hit> traced_in(const std::vector<std::uint64_t>& order,
+                                   tracer::device_scene& on, const std::vector<tracer::ray>& rays) {
+  std::vector<tracer::ray> in_order;
+  for (const std::uint64_t i : order) in_order.push_back(rays[i]);
+  std::vector<tracer::hit> hits(rays.size());
+  const std::vector<tracer::hit> found = on.trace(in_order);
+  for (std::size_t k = 0; k < order.size(); ++k) hits[order[k]] = found[k];
+  return hits;
+}
+
 void compare_ways(lab& l, const char* name, const scene& s, std::uint64_t count,
                   bool with_brute_force) {
   const reference::tracer<float> serial(s);
   struct entry {
     std::string name;
     tracer::device_scene on;
-    std::vector<std::uint64_t> different;
+    bool in_packets;
+    std::vector<std::uint64_t> different{};
   };
   std::vector<entry> all;
-  for (const way& w : ways(l, with_brute_force))
-    all.push_back({std::string(name) + ": " + w.name, l.place(s, w.options), {}});
+  for (const way& w : ways(l, s.instances.size() == 1, with_brute_force))
+    all.push_back({std::string(name) + ": " + w.name, l.place(s, w.options), w.in_packets});
 
   in_batches(l, count, [&](std::uint64_t first, std::uint64_t size) {
     std::vector<tracer::ray> rays(size);
@@ -145,7 +186,7 @@ void compare_ways(lab& l, const char* name, const scene& s, std::uint64_t count,
       }
     });
     for (entry& e : all) {
-      const auto hits = e.on.trace(rays);
+      const auto hits = e.in_packets ? traced_in(by_octant(rays), e.on, rays) : e.on.trace(rays);
       for (std::uint64_t i = 0; i < size; ++i)
         if (!same_hit(hits[i], expected[i])) e.different.push_back(first + i);
     }

@@ -1,0 +1,124 @@
+// A ray in one space, the world or an instance's, with all that the tests of boxes and triangles need of it:
+// of one ray, and of the rays of all lanes.
+#ifndef FACET_SPACE_H
+#define FACET_SPACE_H
+
+#include "box.h"
+#include "lanes.h"
+
+typedef struct {
+  float3 o;
+  Slabs slabs;
+  uint axis;        // of the largest |d_i|
+  bool is_turned;   // what turns counter-clockwise as seen by the ray turns clockwise once sheared
+  float2 shear;     // d_x / d_z, d_y / d_z of the swapped direction
+  float unit;       // 2^-e, e being the exponent of E (box.h): sheared z stay below 2
+  float t_of_unit;  // 2^e / d_z: what a sheared z of 1 is in t
+} Space;
+
+// The axis of the direction's largest component, the first of several.
+static inline uint main_axis(float3 d) {
+  const float3 a = fabs(d);
+  return a.y > a.x ? (a.z > a.y ? 2u : 1u) : (a.z > a.x ? 2u : 0u);
+}
+
+// False if the direction cannot be used: not finite, 0, or its largest component outside
+// 2^-60 to 2^60; or an origin beyond 2^60. Such a ray meets nothing.
+static inline bool space_of(Space* s, float3 o, float3 d, float3 reach) {
+  const float3 a = fabs(d);
+  s->axis = main_axis(d);
+  const float largest = larger(a.x, larger(a.y, a.z));
+  const float3 p = fabs(o);
+  // The negated comparison refuses a NaN in any component.
+  if (!(a.x <= 1.152921504606847e18f && a.y <= 1.152921504606847e18f &&
+        a.z <= 1.152921504606847e18f && largest >= 8.673617379884035e-19f &&
+        p.x <= 1.152921504606847e18f && p.y <= 1.152921504606847e18f &&
+        p.z <= 1.152921504606847e18f))
+    return false;
+  const float3 main = swapped(s->axis, d);
+  s->o = o;
+  s->is_turned = (main.z < 0.0f) != (s->axis != 2u);
+  const float3 over_z = (float3)(main.x, main.y, 1.0f) / main.z;
+  s->shear = over_z.xy;
+  const float3 e = fabs(o) + reach;
+  const float extent = larger(e.x, larger(e.y, e.z));
+  const uint exponent = as_uint(larger(extent, 0x1p-60f)) & 0x7f800000u;
+  s->unit = as_float(0x7f000000u - exponent);
+  s->t_of_unit = over_z.z * as_float(exponent);
+  s->slabs = slabs_of(o, d, extent, largest);
+  return true;
+}
+
+// The rays of the lanes: one in all of them, or in the wide layout one in each. They have one main axis, and
+// turn alike.
+typedef struct {
+  Points o;  // the main axis in z's place
+  Real shear_x, shear_y, unit, t_of_unit;
+  Points inverse, near_offset, far_offset;  // slabs, each axis in its own place
+  uint axis;
+  bool is_turned;
+} Rays;
+
+static inline Rays in_all_lanes(const Space* s) {
+  Rays r;
+  r.o = point_in_all(swapped(s->axis, s->o));
+  r.shear_x = in_all(s->shear.x);
+  r.shear_y = in_all(s->shear.y);
+  r.unit = in_all(s->unit);
+  r.t_of_unit = in_all(s->t_of_unit);
+  r.inverse = point_in_all(s->slabs.inverse);
+  r.near_offset = point_in_all(s->slabs.near_offset);
+  r.far_offset = point_in_all(s->slabs.far_offset);
+  r.axis = s->axis;
+  r.is_turned = s->is_turned;
+  return r;
+}
+
+#ifdef FACET_WIDE
+
+static inline Space space_in_lane(const Rays* r, uint lane) {
+  Space s;
+  s.o = swapped(r->axis, point_in_lane(&r->o, lane));
+  s.slabs.inverse = point_in_lane(&r->inverse, lane);
+  s.slabs.near_offset = point_in_lane(&r->near_offset, lane);
+  s.slabs.far_offset = point_in_lane(&r->far_offset, lane);
+  s.axis = r->axis;
+  s.is_turned = r->is_turned;
+  s.shear = (float2)(stored_lane(&r->shear_x, lane), stored_lane(&r->shear_y, lane));
+  s.unit = stored_lane(&r->unit, lane);
+  s.t_of_unit = stored_lane(&r->t_of_unit, lane);
+  return s;
+}
+
+// As slabs_of (box.h) on one axis, where offsets are known.
+static inline void slab_of(Real o, Real d, Real pad, Real least, Real* inverse, Real* near_offset,
+                           Real* far_offset) {
+  *inverse = 1.0f / (fabs(d) < least ? copysign(least, d) : d);
+  const Real p = pad * fabs(*inverse), c = -(o * *inverse);
+  *near_offset = c - p;
+  *far_offset = c + p;
+}
+
+// As space_of, a ray in each lane, as if it took them all and knew their offsets, which is for the caller to find
+// out. They have that main axis, and on each axis their directions have one sign. `extent` is E of each.
+static inline void rays_of(Rays* r, uint axis, Points o, Points d, float3 reach, Real* extent) {
+  const Points main = swapped_points(axis, d);
+  const Real largest = fabs(main.z);
+  r->axis = axis;
+  r->o = swapped_points(axis, o);
+  r->is_turned = (main.z.s0 < 0.0f) != (axis != 2u);
+  r->shear_x = main.x / main.z;
+  r->shear_y = main.y / main.z;
+  *extent = larger_each(fabs(o.x) + reach.x, larger_each(fabs(o.y) + reach.y, fabs(o.z) + reach.z));
+  const uint8 exponent = as_uint8(larger_each(*extent, in_all(0x1p-60f))) & 0x7f800000u;
+  r->unit = as_float8(0x7f000000u - exponent);
+  r->t_of_unit = 1.0f / main.z * as_float8(exponent);
+  const Real pad = (24.0f * FACET_ULP) * *extent, least = largest * 8.673617379884035e-19f;
+  slab_of(o.x, d.x, pad, least, &r->inverse.x, &r->near_offset.x, &r->far_offset.x);
+  slab_of(o.y, d.y, pad, least, &r->inverse.y, &r->near_offset.y, &r->far_offset.y);
+  slab_of(o.z, d.z, pad, least, &r->inverse.z, &r->near_offset.z, &r->far_offset.z);
+}
+
+#endif
+
+#endif

@@ -1,0 +1,84 @@
+// Rays from a buffer, hits to a buffer: FACET_PACKET rays a work-item, together where they stay close
+// (search_packet.h), or else one after the other. Without instances.
+#include "search_packet.h"
+#include "trace.h"
+
+// The shares of the hits that rays have met alone.
+static inline void find_shares(const PacketPart* p, GEOMETRY positions, uint lanes, Real* u, Real* v) {
+  for (; lanes != 0u; lanes = without_first(lanes)) {
+    const uint lane = first_lane(lanes), slot = ((const uint*)&p->slot)[lane];
+    const Space space = space_in_lane(&p->rays, lane);
+    const float2 shares = shares_in_slot(&space, positions, slot);
+    ((float*)u)[lane] = shares.x;
+    ((float*)v)[lane] = shares.y;
+  }
+}
+
+// Eight hits, 16 bytes each.
+static inline void write_hits(__global Hit* hits, Real t, Real u, Real v, uint8 triangle) {
+  const Real n = as_float8(triangle);
+  __global float8* two = (__global float8*)hits;
+  two[0] = (float8)(t.s0, u.s0, v.s0, n.s0, t.s1, u.s1, v.s1, n.s1);
+  two[1] = (float8)(t.s2, u.s2, v.s2, n.s2, t.s3, u.s3, v.s3, n.s3);
+  two[2] = (float8)(t.s4, u.s4, v.s4, n.s4, t.s5, u.s5, v.s5, n.s5);
+  two[3] = (float8)(t.s6, u.s6, v.s6, n.s6, t.s7, u.s7, v.s7, n.s7);
+}
+
+static inline void write_part(const Scene* s, GEOMETRY positions, const PacketPart* p, uint mode,
+                              __global Hit* hits) {
+  const Mask is_hit = p->slot != FACET_NONE;
+  if (mode == FACET_ANY) {
+    write_hits(hits, is_hit ? in_all(0.0f) : p->t, in_all(0.0f), in_all(0.0f),
+               is_hit ? (uint8)(0u) : (uint8)(FACET_NONE));
+    return;
+  }
+  Real u = is_hit ? p->v / p->det : in_all(0.0f), v = is_hit ? p->w / p->det : in_all(0.0f);
+  find_shares(p, positions, lanes_of(is_hit & (p->det == 0.0f)), &u, &v);
+  uint of[FACET_LANES];
+  vstore8(is_hit ? p->slot : (uint8)(0u), 0, of);
+  for (uint lane = 0u; lane < FACET_LANES; ++lane) of[lane] = s->infos[of[lane]].triangle;
+  write_hits(hits, p->t, u, v, is_hit ? vload8(0, of) : (uint8)(FACET_NONE));
+}
+
+SELDOM void trace_alone(const Scene* s, GEOMETRY positions, __global const Ray* rays, uint count, uint mode,
+                        __global Hit* hits) {
+  for (uint i = 0u; i < count; ++i) {
+    const Query q = traced_query(s, positions, rays + i, mode);
+    hits[i] = hit_of(&q);
+  }
+}
+
+static inline void trace_some(const Scene* s, GEOMETRY positions, __global const Ray* rays, uint count,
+                              uint mode, __global Hit* hits) {
+  PacketPart part[FACET_PARTS];
+  Beam beam;
+  const bool has_nodes = s->triangle_count != 0u && !(s->root & FACET_LEAF_BIT);
+  if (has_nodes && count == FACET_PACKET && packet_of(rays, s->reach, part, &beam)) {
+    search_packet(s, positions, &beam, mode, part);
+    for (uint k = 0u; k < FACET_PARTS; ++k) write_part(s, positions, &part[k], mode, hits + FACET_LANES * k);
+    return;
+  }
+  trace_alone(s, positions, rays, count, mode, hits);
+}
+
+__kernel void trace_closest(__global const World* world, __global const SceneNode* nodes,
+                            __global const Instance* instances, __global const TriangleInfo* infos,
+                            __global const Material* materials, __global Faults* faults, GEOMETRY positions,
+                            __global const Ray* rays, __global Hit* hits, __global uint* hit_instances,
+                            uint count) {
+  const uint first = FACET_PACKET * (uint)get_global_id(0);
+  if (first >= count) return;
+  const Scene s = scene_of(world, nodes, instances, infos, materials, faults);
+  trace_some(&s, positions, rays + first, min(FACET_PACKET, count - first), FACET_CLOSEST, hits + first);
+}
+
+__kernel void trace_any(__global const World* world, __global const SceneNode* nodes,
+                        __global const Instance* instances, __global const TriangleInfo* infos,
+                        __global const Material* materials, __global Faults* faults, GEOMETRY positions,
+                        __global const Ray* rays, __global Hit* hits, __global uint* hit_instances,
+                        uint count) {
+  const uint first = FACET_PACKET * (uint)get_global_id(0);
+  if (first >= count) return;
+  const Scene s = scene_of(world, nodes, instances, infos, materials, faults);
+  trace_some(&s, positions, rays + first, min(FACET_PACKET, count - first), FACET_ANY, hits + first);
+}

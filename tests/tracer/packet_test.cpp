@@ -1,0 +1,190 @@
+// Rays that are traced together against the reference, bit for bit.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <vector>
+
+#include "reference/tracer.hpp"
+#include "tracer/device_helper.hpp"
+#include "tracer/layout.hpp"
+#include "tracer/scenes_helper.hpp"
+#include "tracer/tracer.hpp"
+
+using namespace facet;
+using tracer::device_scene;
+using tracer::hit;
+using tracer::options;
+using tracer::packet_kind;
+using tracer::ray;
+
+namespace {
+
+constexpr std::size_t packet = FACET_PACKET;
+
+options in_packets() {
+  options o;
+  o.layout = tracer::layout_kind::wide;
+  o.packets = packet_kind::on;
+  return o;
+}
+
+/// Packet after packet, each towards a corner, a point of an edge or any point of the mesh: all at
+/// that point itself or spread around it, from one point or from several close to one another.
+std::vector<ray> close_rays(const mesh& m, std::size_t packets, std::uint64_t seed) {
+  test::random r(seed);
+  std::vector<ray> rays;
+  for (std::size_t g = 0; g < packets; ++g) {
+    const std::uint32_t t = r.below(std::uint32_t(m.triangle_count()));
+    const vec3f a = m.position(t, 0), b = m.position(t, 1), c = m.position(t, 2);
+    const vec3f to = g % 3 == 0   ? a
+                     : g % 3 == 1 ? a + (b - a) * r.uniform()
+                                  : (a + b + c) * (1.0f / 3);
+    const vec3f from = r.in_cube() * (g % 4 == 0 ? 1.0f : 3.0f);
+    const float spread = g % 5 == 0 ? 0.0f : g % 5 == 1 ? 1e-5f : g % 5 == 2 ? 1e-3f : 3e-2f;
+    for (std::size_t k = 0; k < packet; ++k) {
+      const vec3f o = g % 2 == 0 ? from : from + r.in_cube() * 0.02f;
+      const vec3f d = to + r.in_cube() * spread - o;
+      rays.push_back({{o.x, o.y, o.z}, 0, {d.x, d.y, d.z}, k % 8 == 3 ? 1.0f : INFINITY});
+    }
+  }
+  return rays;
+}
+
+reference::ray<float> to_reference(const ray& r) {
+  return {{r.origin[0], r.origin[1], r.origin[2]},
+          r.tmin,
+          {r.direction[0], r.direction[1], r.direction[2]},
+          r.tmax};
+}
+
+std::size_t differing_from_reference(const scene& s, const std::vector<ray>& rays, options o) {
+  const reference::tracer<float> serial(s);
+  device_scene on(test::queue(), s, std::move(o));
+  const auto hits = on.trace(rays), any = on.trace(rays, true);
+  std::size_t differing = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const auto e = serial.closest_brute(to_reference(rays[i]));
+    const hit& h = hits[i];
+    differing += std::memcmp(&h.t, &e.t, 4) != 0 || std::memcmp(&h.u, &e.u, 4) != 0 ||
+                 std::memcmp(&h.v, &e.v, 4) != 0 || h.instance != e.instance ||
+                 h.triangle != e.triangle ||
+                 (any[i].triangle != tracer::miss) != (e.instance != reference::miss);
+  }
+  return differing;
+}
+
+std::size_t hits_of(const scene& s, const std::vector<ray>& rays, options o) {
+  const auto hits = device_scene(test::queue(), s, std::move(o)).trace(rays);
+  return std::size_t(std::count_if(hits.begin(), hits.end(),
+                                   [](const hit& h) { return h.triangle != tracer::miss; }));
+}
+
+}  // namespace
+
+TEST_CASE("packets: rays that stay close give the reference's bits, and do go together") {
+  const mesh meshes[] = {test::random_soup(500, 1),
+                         generate("torus_knot", {{"segments", 64}, {"sides", 8}})};
+  for (const mesh& m : meshes) {
+    const scene s = test::one_mesh(m);
+    const auto rays = close_rays(m, 300, 7);
+    CHECK(differing_from_reference(s, rays, in_packets()) == 0);
+    options portable = in_packets();
+    portable.compiler_flags = " -DFACET_PORTABLE";
+    CHECK(differing_from_reference(s, rays, portable) == 0);
+    // Were no packet ever searched, nothing above would have shown anything.
+    options lost = in_packets();
+    lost.edits = {{"trace_packets.cl", "search_packet(s, positions, &beam, mode, part);", ""}};
+    const std::size_t met = hits_of(s, rays, in_packets());
+    CHECK(met > rays.size() / 2);
+    CHECK(hits_of(s, rays, lost) < met / 2);
+    // Hits are lost by a beam that holds one lane's rays alone.
+    options narrow_beam = in_packets();
+    narrow_beam.edits = {{"beam.h", "least_of(least)", "least.s0"},
+                         {"beam.h", "most_of(most)", "most.s0"},
+                         {"beam.h", "least_of(near) - slack", "near.s0"},
+                         {"beam.h", "most_of(far) + slack", "far.s0"}};
+    CHECK(differing_from_reference(s, rays, narrow_beam) > 0);
+    // Nor if no ray of one ever went on alone, or all did.
+    options alone = in_packets();
+    alone.edits = {{"search_packet.h", "search_from(s, positions, node,",
+                    "if (false) search_from(s, positions, node,"}};
+    CHECK(hits_of(s, rays, alone) < met);
+    CHECK(hits_of(s, rays, alone) > met / 4);
+  }
+}
+
+TEST_CASE("packets: one ray that does not go with the others sends all of them alone") {
+  const mesh m = test::random_soup(200, 3);
+  const scene s = test::one_mesh(m);
+  std::vector<ray> rays = close_rays(m, 100, 9);
+  const ray odd[] = {{{0, 0, 3}, 0, {0, 0, -1}, INFINITY},
+                     {{0, 3, 0}, 0, {0, -1, 1e-9f}, INFINITY},
+                     {{0, 0, 0}, 0, {1, -0.0f, 0}, INFINITY},
+                     {{0, 0, 0}, 0, {1, 1, 1}, INFINITY},
+                     {{0, 0, 0}, 5, {0, 0, 1}, 4},
+                     {{1e5f, 0, 0}, 0, {-1, 0, 0}, INFINITY},
+                     {{0, 0, 0}, -1, {1e-18f, 0, 0}, INFINITY},
+                     {{0, 0, 0}, 0, {1e18f, 1, 1}, INFINITY}};
+  for (std::size_t g = 0; g < 100; ++g) rays[packet * g + g % packet] = odd[g % std::size(odd)];
+  CHECK(differing_from_reference(s, rays, in_packets()) == 0);
+}
+
+TEST_CASE("packets: a ray that cannot be used is counted, and meets nothing; the others hit") {
+  const scene s = test::one_mesh(generate("box", {{"size", 2}}));
+  const ray bad[] = {
+      {{0, 0, 3}, 0, {NAN, 0, -1}, INFINITY},    {{0, 0, 3}, 0, {0, 0, -INFINITY}, INFINITY},
+      {{0, NAN, 3}, 0, {0, 0, -1}, INFINITY},    {{INFINITY, 0, 3}, 0, {0, 0, -1}, INFINITY},
+      {{0, 0, 3}, NAN, {0, 0, -1}, INFINITY},    {{0, 0, 3}, 0, {0, 0, -1}, NAN},
+      {{0, 0, 3}, 0, {0, 0, -1e-30f}, INFINITY}, {{0, 0, 3}, 0, {0, 0, -1e30f}, INFINITY}};
+  for (const ray& b : bad)
+    for (const std::size_t at : {std::size_t(0), std::size_t(13), packet - 1}) {
+      CAPTURE(at);
+      CAPTURE(&b - bad);
+      std::vector<ray> rays(packet, ray{{0.1f, 0.2f, 3}, 0, {0, 0, -1}, INFINITY});
+      rays[at] = b;
+      device_scene on(test::queue(), s, in_packets());
+      tracer::statistics stats;
+      const auto hits = on.trace(rays, false, 1, &stats);
+      CHECK(stats.refused == 1);
+      for (std::size_t i = 0; i < packet; ++i)
+        CHECK((hits[i].triangle == tracer::miss) == (i == at));
+    }
+}
+
+TEST_CASE("packets: any number of rays, whole packets or not") {
+  const mesh m = generate("icosphere", {{"subdivisions", 2}});
+  const scene s = test::one_mesh(m);
+  const auto rays = close_rays(m, 5, 2);
+  for (const std::size_t n : {std::size_t(1), packet - 1, packet, packet + 1, 4 * packet + 7}) {
+    CAPTURE(n);
+    CHECK(differing_from_reference(s, {rays.begin(), rays.begin() + std::ptrdiff_t(n)},
+                                   in_packets()) == 0);
+  }
+}
+
+TEST_CASE("packets: of coincident triangles the lowest is hit, in whatever lane it lies") {
+  mesh m = test::random_soup(1, 5);
+  m.positions = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
+  m.indices.clear();
+  for (int k = 0; k < 300; ++k) m.indices.insert(m.indices.end(), {0u, 1u, 2u});
+  test::random r(4);
+  std::vector<ray> rays;
+  for (std::size_t i = 0; i < 4 * packet; ++i)
+    rays.push_back({{0.1f, 0.1f, 2}, 0, {0.02f * r.uniform(), 0.02f * r.uniform(), -1}, INFINITY});
+  for (const hit& h : device_scene(test::queue(), test::one_mesh(m), in_packets()).trace(rays))
+    CHECK(h.triangle == 0);
+}
+
+TEST_CASE("packets: asked for where they cannot be, they are refused; statistics say what runs") {
+  const scene box = test::one_mesh(generate("box", {{"size", 2}}));
+  options narrow = in_packets();
+  narrow.layout = tracer::layout_kind::narrow;
+  CHECK_THROWS_AS(device_scene(test::queue(), box, narrow), runtime::exception);
+  CHECK_THROWS_AS(device_scene(test::queue(), test::many_instances(), in_packets()),
+                  runtime::exception);
+  CHECK(device_scene(test::queue(), box, in_packets()).prepared().rays_a_work_item == packet);
+  options off = in_packets();
+  off.packets = packet_kind::off;
+  CHECK(device_scene(test::queue(), box, off).prepared().rays_a_work_item == 1);
+}
