@@ -127,6 +127,7 @@ json row_of(const contestant& c, const std::string& mesh, std::uint64_t triangle
     row["upload_ms"] = c.upload_ms;
     row["depth"] = c.last.tree_depth;
     row["bytes"] = c.last.device_bytes;
+    row["peak_bytes"] = c.last.peak_bytes;
   }
   row["warm_up_s"] = c.warm_up_s;
   row["build"] = rates(c.seconds, double(triangles));

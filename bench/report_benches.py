@@ -97,14 +97,18 @@ def _beside_peer(ours):
     def section(root, _):
         rows = []
         for r in root["results"].items():
-            peer, ratio = r.find("embree"), r.find("ratio")
-            rows.append((r["mesh"].get(str), r["rays"].get(str), number(r["count"].get(int)),
-                         _rates(r[ours]), _rates(peer) if peer else "\N{EN DASH}",
-                         _ratio(ratio) if ratio else "\N{EN DASH}",
-                         number(r["hit_or_miss_differs"].get(int)) if peer else "\N{EN DASH}"))
+            what = (r["mesh"].get(str), r["rays"].get(str), number(r["count"].get(int)), _rates(r[ours]))
+            # Ways to ask the peer; files of before asked it in one, and that is in the row itself.
+            ways = r["peers"].items() if r.find("peers") else [r] if r.find("embree") else []
+            for way in ways:
+                name = way["way"].get(str) if way.find("way") else "single"
+                rows.append((*what, name, _rates(way["embree"]), _ratio(way["ratio"]),
+                             number(way["hit_or_miss_differs"].get(int))))
+            if not ways:
+                rows.append((*what, *["\N{EN DASH}"] * 4))
         name = root["peer"]["name"].get(str) if root.find("peer") else "no peer"
         blocks = [table(f"Mrays/s, median (least\N{EN DASH}most); peer: {name}",
-                        ("mesh", "rays", "#count", "#Facet, Mrays/s", "#peer, Mrays/s",
+                        ("mesh", "rays", "#count", "#Facet, Mrays/s", "asked for", "#peer, Mrays/s",
                          "#ratio", "#hit in one, miss in the other"), rows)]
         builds = [(b["mesh"].get(str), number(b["triangles"].get(int)), *_build(b))
                   for b in root["builds"].items()]

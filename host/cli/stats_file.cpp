@@ -31,7 +31,8 @@ nlohmann::ordered_json to_json(const tracer::statistics& s) {
           {"features", s.features},
           {"tree_depth", s.tree_depth},
           {"tree_nodes", s.tree_nodes},
-          {"device_bytes", s.device_bytes}};
+          {"device_bytes", s.device_bytes},
+          {"peak_bytes", s.peak_bytes}};
 }
 
 void write_json(const std::filesystem::path& path, const nlohmann::ordered_json& content) {

@@ -37,6 +37,10 @@ context context::of(const device& d) {
 }
 
 std::vector<device> context::get_devices() const { return state_->devices; }
+std::uint64_t context::memory_in_use() const noexcept { return state_->memory.now(); }
+std::uint64_t context::peak_memory() const noexcept { return state_->memory.most(); }
+void context::restart_peak() noexcept { state_->memory.restart(); }
+
 native::context context::get() const noexcept { return state_->context(); }
 
 }  // namespace facet::runtime

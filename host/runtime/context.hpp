@@ -1,6 +1,7 @@
 // What devices share memory and programs through (SYCL 2020, section 4.6.3).
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -27,6 +28,13 @@ class context {
 
   std::vector<device> get_devices() const;
   platform get_platform() const { return get_devices().front().get_platform(); }
+
+  /// Bytes of all buffers and images that a command has put on the devices and that still live; and
+  /// the most that they have been, since restart_peak() if it was called.
+  std::uint64_t memory_in_use() const noexcept;
+  std::uint64_t peak_memory() const noexcept;
+  /// From now on: peak_memory() is memory_in_use().
+  void restart_peak() noexcept;
 
   native::context get() const noexcept;
   friend bool operator==(const context&, const context&) = default;

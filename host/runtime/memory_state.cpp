@@ -11,6 +11,7 @@ memory::~memory() {
   } catch (...) {
     report(std::current_exception());
   }
+  if (object_()) last_->context->memory.remove(bytes_);
 }
 
 void memory::prepare(const std::shared_ptr<queue_state>& q, access_mode mode, bool discard) {
@@ -22,6 +23,7 @@ void memory::prepare(const std::shared_ptr<queue_state>& q, access_mode mode, bo
   }
   if (!object_()) {
     object_ = create(q->context->context, q->target);
+    q->context->memory.add(bytes_);
   } else if (last_->context != q->context) {
     throw exception(errc::invalid,
                     "the memory lives in the context of the queue that first used it, and this "

@@ -21,6 +21,7 @@ struct device_scene::state {
   scene model;  ///< without its meshes: camera, lights and limits of later pictures
   std::vector<std::uint32_t> camera_media;  ///< around the camera, innermost first
   device_geometry geometry;
+  std::uint64_t peak_bytes = 0;  ///< of device memory while the geometry was made
   runtime::buffer<Light> lights;
   runtime::buffer<Faults> faults;
   std::optional<runtime::program> trace_program, render_program, probe_program;

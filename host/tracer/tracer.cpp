@@ -95,15 +95,19 @@ device_scene::device_scene(runtime::queue queue, const scene& s, options o,
   for (const kernel_edit& e : o.edits) apply(e, kernels);
   packed_scene packed = pack(s, used.smooth);
   runtime::buffer<Light> lights = light_buffer(packed.lights);
+  runtime::context context = queue.get_context();
+  context.restart_peak();
+  const std::uint64_t before = context.memory_in_use();
   device_geometry geometry =
       wide ? build_wide_geometry(queue, kernels, std::move(packed), used, o.tree, tuned, given)
            : build_geometry(queue, kernels, std::move(packed), used, o.tree, in_images, tuned,
                             given);
 
-  state_ = std::make_unique<state>(
-      state{queue, std::move(o), tuned, used, in_images, in_packets, std::move(kernels),
-            without_meshes(s), media_at(s, s.view.position), std::move(geometry), std::move(lights),
-            runtime::buffer<Faults>(1), std::nullopt, std::nullopt, std::nullopt, 0});
+  const std::uint64_t peak = context.peak_memory() - before;
+  state_ = std::make_unique<state>(state{
+      queue, std::move(o), tuned, used, in_images, in_packets, std::move(kernels),
+      without_meshes(s), media_at(s, s.view.position), std::move(geometry), peak, std::move(lights),
+      runtime::buffer<Faults>(1), std::nullopt, std::nullopt, std::nullopt, 0});
 }
 
 device_scene::~device_scene() = default;
@@ -215,6 +219,7 @@ void device_scene::state::describe(statistics& s) const {
   s.tree_depth = geometry.depth;
   s.tree_nodes = geometry.nodes_used;
   s.device_bytes = geometry.bytes;
+  s.peak_bytes = peak_bytes;
 }
 
 }  // namespace facet::tracer

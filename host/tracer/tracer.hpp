@@ -119,6 +119,8 @@ struct statistics {
   std::uint32_t tree_depth = 0;
   std::uint64_t tree_nodes = 0;
   std::uint64_t device_bytes = 0;
+  std::uint64_t peak_bytes =
+      0;  ///< on the device while the geometry was made, what it keeps included
   /// Rays, of the last repeat, that could not be used: not finite, or out of range
   /// (cl/triangle.h: space_of). They meet nothing.
   std::uint64_t refused = 0;

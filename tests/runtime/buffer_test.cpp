@@ -168,3 +168,25 @@ TEST_CASE("after a failed command nothing is written back, no destructor throws,
   CHECK(data == ints(10, 1));
   CHECK_THROWS_AS(q.wait_and_throw(), exception);
 }
+
+TEST_CASE("a context counts the memory on its devices, and the most that it was") {
+  context c(test::device());
+  queue q(c, test::device());
+  const auto use = [&](buffer<int>& b) {
+    q.submit([&](handler& h) { h.fill(accessor{b, h, write_only}, 1); });
+  };
+  const std::uint64_t before = c.memory_in_use();
+  buffer<int> kept(1000);
+  CHECK(c.memory_in_use() == before);  // no command has used it
+  use(kept);
+  CHECK(c.memory_in_use() == before + 4000);
+  {
+    buffer<int> passing(500);
+    use(passing);
+    CHECK(c.memory_in_use() == before + 6000);
+  }
+  CHECK(c.memory_in_use() == before + 4000);
+  CHECK(c.peak_memory() >= before + 6000);
+  c.restart_peak();
+  CHECK(c.peak_memory() == before + 4000);
+}

@@ -9,6 +9,7 @@
 #include "tracer/device_helper.hpp"
 #include "tracer/kernels.hpp"
 #include "tracer/scenes_helper.hpp"
+#include "tracer/tracer.hpp"
 #include "tracer/tree_walk_helper.hpp"
 
 using namespace facet;
@@ -98,4 +99,22 @@ TEST_CASE("images hold the geometry in their own memory") {
   CHECK(g.corner_image->width() == 8192);
   CHECK(g.corner_image->height() == 2);
   CHECK(g.corners.size() == 1);
+}
+
+TEST_CASE(
+    "at most 100 bytes a triangle are kept in the narrow layout, and 200 at the peak of a build") {
+  const scene s = test::one_mesh(generate("terrain", {{"n", 300}}));
+  for (const tree_kind kind : {tree_kind::binned, tree_kind::levels}) {
+    CAPTURE(int(kind));
+    options o;
+    o.tree = kind;
+    o.layout = layout_kind::narrow;
+    const statistics made = device_scene(test::queue(), s, o).prepared();
+    const double triangles = double(s.triangle_count());
+    CAPTURE(double(made.device_bytes) / triangles);
+    CAPTURE(double(made.peak_bytes) / triangles);
+    CHECK(double(made.device_bytes) < 100 * triangles);
+    CHECK(made.peak_bytes >= made.device_bytes);
+    CHECK(double(made.peak_bytes) < 200 * triangles);
+  }
 }
