@@ -121,7 +121,7 @@ static inline bool meet_triangles(const Scene* s, GEOMETRY positions, const Spac
   TriangleHits hits;
   const Rays ray = in_all_lanes(space);
   uint left = lanes_where(hit_triangles(&ray, triangles_from(positions, first), outer, in_all(tmin),
-                                        in_all(q->t), true, mode == FACET_CROSSINGS, &hits));
+                                        in_all(q->t), FACET_LANES > 1u, mode == FACET_CROSSINGS, &hits));
   for (; left != 0u; left = without_first(left)) {
     const uint lane = first_lane(left);
     const bool is_crossing = mode == FACET_CROSSINGS;

@@ -34,7 +34,9 @@ node_tree node_trees::over_triangles(runtime::buffer<texel>& corners, std::uint3
     return tree;
   }
   runtime::buffer<Box> boxes = levels_->boxes_of(corners, count);
-  return cut_.cut(levels_->build(boxes, count), leaves_);
+  const binary_tree tree = levels_->build(boxes, count);
+  boxes = runtime::buffer<Box>(1);  // the tree has them in its leaves
+  return cut_.cut(tree, leaves_);
 }
 
 node_tree node_trees::over_instances(const std::vector<Instance>& placed) {
