@@ -12,6 +12,7 @@
 //   FACET_STACK=n          entries of the traversal stack: one for each level, or seven (search_narrow.h, search_wide.h)
 //   FACET_RAY_STACK=n      entries of the stack of pending rays: at least max_depth
 //   FACET_NESTING=n        transparent objects that may lie within one another (media.h)
+//   FACET_PACKET_WIDTH=x   how far apart rays may start that go together, as a share of the scene (packet.h)
 //   FACET_HARDWARE_MINMAX, FACET_PORTABLE  see device.h
 //   FACET_PTX              NVIDIA: work-items of a warp ask each other (warp.h)
 #ifndef FACET_FEATURES_H

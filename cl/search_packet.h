@@ -126,11 +126,11 @@ static inline void push_in_order(const Scene* s, GEOMETRY positions, uint node, 
   }
 }
 
-// A node leaves at most seven children waiting once its nearest is taken, and all eight until then: for these
-// the entry is there that a mark takes in search_wide.h, whose bound on the stack holds here, too.
+// A node leaves at most seven children waiting once its nearest is taken, and all eight until then: one entry
+// more than what search_wide.h needs.
 static inline void search_packet(const Scene* s, GEOMETRY positions, const Beam* b, uint mode,
                                  PacketPart* part) {
-  ulong stack[FACET_STACK];
+  ulong stack[FACET_STACK + 1];
   int top = 0;
   uint node = s->root;
   float best = best_of(part);
