@@ -64,7 +64,7 @@ std::size_t differing_from_reference(const scene& s, const std::vector<ray>& ray
   const auto hits = on.trace(rays), any = on.trace(rays, true);
   std::size_t differing = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    const auto e = serial.closest_brute(to_reference(rays[i]));
+    const auto e = serial.closest(to_reference(rays[i]));
     const hit& h = hits[i];
     differing += std::memcmp(&h.t, &e.t, 4) != 0 || std::memcmp(&h.u, &e.u, 4) != 0 ||
                  std::memcmp(&h.v, &e.v, 4) != 0 || h.instance != e.instance ||

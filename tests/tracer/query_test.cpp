@@ -44,11 +44,13 @@ std::vector<options> every_way() {
         o.geometry = g;
         o.layout = layout;
         o.all_features = all;
+        o.packets = tracer::packet_kind::off;  // packet_test.cpp
         ways.push_back(o);
       }
   // Wide, without what is written for x86 alone.
   options portable;
   portable.layout = layout_kind::wide;
+  portable.packets = tracer::packet_kind::off;
   portable.compiler_flags = " -DFACET_PORTABLE";
   ways.push_back(portable);
   return ways;
