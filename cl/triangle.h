@@ -87,8 +87,9 @@ static inline Mask hold_to_boxes(const Rays* r, Triangles p, Interval outer, Rea
   return near <= far;
 }
 
-// The lanes whose rays meet their triangles with t in tmin..tmax; the edges belong to the triangle. `many`: few of
-// them will, a literal, as `count` is: whether is_front and is_counted are asked for. t lies in the interval of the triangle's own box and in `outer`, that of its instance's box in the world.
+// The lanes whose rays meet their triangles with t in tmin..tmax; the edges belong to the triangle. Literals:
+// `many`, whether few of the lanes will; `count`, whether is_front and is_counted are asked for. t lies in the
+// interval of the triangle's own box and in `outer`, that of its instance's box in the world.
 //
 // It does so by itself, unless an underflow or an instance's maps come between. With u, v, w as they
 // come out, each within 2u of the edge function of the sheared corners, b = u / (u+v+w) and so on are

@@ -1,15 +1,16 @@
 // Hits of the device against those of the reference, bit for bit.
 #include <doctest/doctest.h>
 
-#include <cstring>
 #include <vector>
 
-#include "reference/tracer.hpp"
 #include "tracer/device_helper.hpp"
+#include "tracer/reference_helper.hpp"
 #include "tracer/scenes_helper.hpp"
 #include "tracer/tracer.hpp"
 
 using namespace facet;
+using test::same_bits;
+using test::to_reference;
 using tracer::device_scene;
 using tracer::geometry_kind;
 using tracer::hit;
@@ -19,18 +20,6 @@ using tracer::ray;
 using tracer::tree_kind;
 
 namespace {
-
-reference::ray<float> to_reference(const ray& r) {
-  return {{r.origin[0], r.origin[1], r.origin[2]},
-          r.tmin,
-          {r.direction[0], r.direction[1], r.direction[2]},
-          r.tmax};
-}
-
-bool same_bits(const hit& a, const reference::hit<float>& b) {
-  return std::memcmp(&a.t, &b.t, 4) == 0 && std::memcmp(&a.u, &b.u, 4) == 0 &&
-         std::memcmp(&a.v, &b.v, 4) == 0 && a.instance == b.instance && a.triangle == b.triangle;
-}
 
 std::vector<options> every_way() {
   std::vector<options> ways;
