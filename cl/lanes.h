@@ -41,6 +41,11 @@ static inline Points larger_points(Points a, Points bound) {
   return p;
 }
 
+// An interval of each.
+typedef struct {
+  Real near, far;
+} Intervals;
+
 // The main axis changes places with z.
 static inline Points swapped_points(uint axis, Points a) {
   Points p;
@@ -89,6 +94,25 @@ static inline Points point_in_all(float3 a) {
   p.x = in_all(a.x);
   p.y = in_all(a.y);
   p.z = in_all(a.z);
+  return p;
+}
+
+// Affine maps of each, in the order of vec.h's.
+static inline Real map_axis(__global const float* row, Points p) {
+  return (row[0] * p.x + row[1] * p.y) + row[2] * p.z;
+}
+static inline Points map_vectors(__global const float* m, Points v) {
+  Points p;
+  p.x = map_axis(m, v);
+  p.y = map_axis(m + 4, v);
+  p.z = map_axis(m + 8, v);
+  return p;
+}
+static inline Points map_points(__global const float* m, Points v) {
+  Points p = map_vectors(m, v);
+  p.x = p.x + m[3];
+  p.y = p.y + m[7];
+  p.z = p.z + m[11];
   return p;
 }
 

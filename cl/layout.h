@@ -22,8 +22,10 @@ struct FACET_ALIGNED Node {
 // The wide layout, for CPUs: eight children to a node, triangles in blocks of eight.
 #define FACET_BLOCK 8u
 
-// Rays that a work-item traces together, where it does (packet.h).
+// Rays that a work-item traces together, where it does (packet.h): of a picture those of a tile, so many
+// pixels wide.
 #define FACET_PACKET 32u
+#define FACET_PACKET_COLUMNS 8u
 
 // As Node. A leaf is one block of triangles, or one instance. An absent child has bounds that no ray
 // meets: lo = INFINITY, hi = -INFINITY.

@@ -6,25 +6,43 @@
 #include "media.h"
 #include "surface.h"
 
+// The way to a light.
+typedef struct {
+  float3 start, direction;
+  float distance;  // INFINITY for a directional light
+  bool is_point;
+  Media media;  // around the start
+} Way;
+
+#ifdef FACET_NO_TRANSPARENCY
+#define FACET_SHADOWS FACET_ANY
+#else
+#define FACET_SHADOWS FACET_CROSSINGS
+#endif
+
+// For a point light `end` is its distance, so that a medium around the light is counted up to it; for a
+// directional one it is 0, as every medium is left again.
+static inline float end_of(const Way* way) { return way->is_point ? way->distance : 0.0f; }
+
+static inline Query shadow_query(const Scene* s, GEOMETRY positions, const Way* way) {
+  return traverse_to(s, positions, way->start, way->direction, 0.0f, way->distance, end_of(way),
+                     FACET_SHADOWS);
+}
+
 // T, what reaches a point: the product of Kt over the surfaces crossed and of A^(s/D) over the way inside;
-// 0 as soon as something opaque stands between. `media` surround `start`; `distance` is INFINITY for a
-// directional light.
+// 0 as soon as something opaque stands between. `q` tells of the way.
 //
 // A crossing at t adds -ln(Kt) and +-(end - t) sigma, + where a medium is entered; a medium around
-// the start adds end * sigma. For a point light `end` is its distance, so that a medium around the
-// light is counted up to it; for a directional one it is 0, as every medium is left again.
-static inline float3 transmittance(const Scene* s, GEOMETRY positions, float3 start, float3 direction,
-                                   float distance, bool is_point, Media media) {
+// the start adds end * sigma.
+static inline float3 transmittance(const Scene* s, const Way* way, Query q) {
 #ifdef FACET_NO_TRANSPARENCY
-  const Query q = traverse(s, positions, start, direction, 0.0f, distance, FACET_ANY);
   return q.triangle == FACET_NONE ? (float3)(1.0f) : (float3)(0.0f);
 #else
-  Query q = crossings(s, positions, start, direction, distance, is_point ? distance : 0.0f);
   if (q.triangle != FACET_NONE) return (float3)(0.0f);
   for (int k = 0; k < FACET_NESTING; ++k) {
-    if (media.of[k] == FACET_NONE || !is_point) continue;
-    __global const Material* m = &s->materials[media.of[k]];
-    for (int c = 0; c < 3; ++c) q.depth[c] += fixed_depth(distance * m->sigma[c]);
+    if (way->media.of[k] == FACET_NONE || !way->is_point) continue;
+    __global const Material* m = &s->materials[way->media.of[k]];
+    for (int c = 0; c < 3; ++c) q.depth[c] += fixed_depth(way->distance * m->sigma[c]);
   }
   float t[3];
   for (int c = 0; c < 3; ++c) {
@@ -42,51 +60,66 @@ static inline float falloff(__global const Light* light, float distance) {
   return g > 1.0f ? 1.0f / g : 1.0f;
 }
 
-// The light's part of the radiance that leaves `f` against `d`. `media` surround the ray.
-static inline float3 lit_by(const Scene* s, GEOMETRY positions, __global const Light* light,
-                            const Surface* f, __global const Material* m, float3 d, Media media) {
+// How a light stands to a surface.
+typedef struct {
+  Way way;
+  float3 l;  // unit direction to it, and its cosine with the shading normal
+  float facing;
+  float scale;  // what its distance leaves of it
+} Lighting;
+
+// False if it stands behind the surface. `media` surround the ray that met it.
+static inline bool faces_light(const Scene* s, __global const Light* light, const Surface* f,
+                               __global const Material* m, Media media, Lighting* to) {
   const bool is_point = light->kind == FACET_POINT_LIGHT;
   const float3 place = vec_global(light->position);
-  float3 l = place;
-  float scale = 1.0f;
+  to->l = place;
+  to->scale = 1.0f;
   if (is_point) {
     const float3 way = place - f->p;
     const float distance = length3(way);
-    l = way / distance;
-    scale = falloff(light, distance);
+    to->l = way / distance;
+    to->scale = falloff(light, distance);
   }
-  const float facing = dot3(f->shading, l);
-  if (!(facing > 0.0f)) return (float3)(0.0f);
+  to->facing = dot3(f->shading, to->l);
+  if (!(to->facing > 0.0f)) return false;
 
   // A light that only the shading normal sees stands behind the surface: its way starts there.
-  const bool is_above = dot3(f->geometric, l) > 0.0f;
+  const bool is_above = dot3(f->geometric, to->l) > 0.0f;
   const float3 step = f->geometric * f->delta;
-  const float3 start = is_above ? f->p + step : f->p - step;
+  Way* w = &to->way;
+  w->start = is_above ? f->p + step : f->p - step;
+  w->media = media;
 #ifndef FACET_NO_TRANSPARENCY
   if (!is_above && m->transparent)
-    media = f->is_front ? entered(s, media, f->material) : left(media, f->material);
+    w->media = f->is_front ? entered(s, media, f->material) : left(media, f->material);
 #endif
-  float3 direction = l;
-  float distance = INFINITY;
+  w->is_point = is_point;
+  w->direction = to->l;
+  w->distance = INFINITY;
   if (is_point) {
-    const float3 way = place - start;
-    distance = length3(way);
-    direction = way / distance;
+    const float3 way = place - w->start;
+    w->distance = length3(way);
+    w->direction = way / w->distance;
   }
-  const float3 t = transmittance(s, positions, start, direction, distance, is_point, media);
-  if (is_black(t)) return (float3)(0.0f);
+  return true;
+}
 
-  float3 reflected = vec_global(m->Kd) * facing;
+// The light's part of the radiance that leaves `f` against `d`, given what comes through on its way.
+static inline float3 lit_by(__global const Light* light, const Lighting* to, const Surface* f,
+                            __global const Material* m, float3 d, float3 through) {
+  if (is_black(through)) return (float3)(0.0f);
+  float3 reflected = vec_global(m->Kd) * to->facing;
 #ifndef FACET_NO_SPECULAR
   float highlight = 0.0f;
   if (m->specular) {
-    const float3 r = f->shading * (2.0f * facing) - l;
+    const float3 r = f->shading * (2.0f * to->facing) - to->l;
     const float along = dot3(r, -d);
     highlight = along > 0.0f ? pow_strict(along, m->Ns) : 0.0f;
   }
   reflected = reflected + vec_global(m->Ks) * highlight;
 #endif
-  return ((vec_global(light->colour) * scale) * t) * reflected;
+  return ((vec_global(light->colour) * to->scale) * through) * reflected;
 }
 
 #endif

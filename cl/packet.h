@@ -9,12 +9,29 @@
 
 // Eight of the rays, and what each has met so far.
 typedef struct {
-  Rays rays;
+  Points o, d;  // in the world
   Real tmin;
-  Real t;          // tmax, or the best hit's; -INFINITY once a search for any hit has one
+  Real t;          // tmax, or the best hit's; -INFINITY: nothing more is looked for
   Real v, w, det;  // of the best hit (triangle.h: TriangleHits); det 0: not known
   uint8 slot;      // of the best hit; FACET_NONE
+#ifndef FACET_NO_INSTANCES
+  uint8 place;
+#endif
+#ifndef FACET_NO_TRANSPARENCY
+  Real t_end;  // query.h: Query
+  long depth[FACET_LANES][3];
+#endif
 } PacketPart;
+
+// The rays in one space: the world, or an instance's.
+typedef struct {
+  Rays rays[FACET_PARTS];
+#ifndef FACET_NO_INSTANCES
+  Intervals outer[FACET_PARTS];  // of the instance's box in the world; empty for a ray that does not enter
+#endif
+  Beam beam;
+  uint place;  // FACET_NONE: the world
+} PacketSpace;
 
 // Eight rows of eight, columns for rows.
 static inline void transpose(Real a[8]) {
@@ -48,13 +65,13 @@ static inline Points moved_to(float3 centre, Points offset, Points inverse) {
   return p;
 }
 
-static inline Beam beam_of(const PacketPart* part, float3 centre, float extent) {
-  Points least = part[0].rays.inverse, most = least;
-  Points near = moved_to(centre, part[0].rays.near_offset, least);
-  Points far = moved_to(centre, part[0].rays.far_offset, least);
+static inline Beam beam_of(const Rays* rays, const PacketPart* part, float3 centre, float extent) {
+  Points least = rays->inverse, most = least;
+  Points near = moved_to(centre, rays->near_offset, least);
+  Points far = moved_to(centre, rays->far_offset, least);
   Real tmin = part[0].tmin;
   for (uint k = 1u; k < FACET_PARTS; ++k) {
-    const Rays* r = &part[k].rays;
+    const Rays* r = &rays[k];
     least = smaller_points(r->inverse, least);
     most = larger_points(r->inverse, most);
     near = smaller_points(moved_to(centre, r->near_offset, r->inverse), near);
@@ -75,53 +92,99 @@ static inline float best_of(const PacketPart* part) {
   return most_of(t);
 }
 
+// Rays that look for the nearest hit, or for all that they cross, in tmin to tmax.
+static inline void begin_part(PacketPart* p, Points o, Points d, Real tmin, Real tmax) {
+  p->o = o;
+  p->d = d;
+  p->tmin = tmin < 0.0f ? in_all(0.0f) : tmin;
+  p->t = tmax;
+  p->v = p->w = p->det = in_all(0.0f);
+  p->slot = (uint8)(FACET_NONE);
+#ifndef FACET_NO_INSTANCES
+  p->place = (uint8)(FACET_NONE);
+#endif
+}
+
 // A packet is worth it where its rays start close to one another: within this share of the space's size.
 #ifndef FACET_PACKET_WIDTH
 #define FACET_PACKET_WIDTH 0.0625f
 #endif
 
-// Takes FACET_PACKET rays from a buffer. False if they cannot be traced together: one cannot be used, or
-// meets nothing from the start; the signs or main axes of their directions differ; they start too far from
-// one another.
-static inline bool packet_of(__global const Ray* rays, float3 reach, PacketPart* part, Beam* b) {
-  Points o[FACET_PARTS], d[FACET_PARTS], least, most;
-  const float3 centre = vec_global(rays->origin), first = vec_global(rays->direction);
-  uint usable = (1u << FACET_LANES) - 1u;
-  Real extent = in_all(0.0f), offsets = in_all(0.0f);
-  for (uint k = 0u; k < FACET_PARTS; ++k) {
-    __global const Real* from = (__global const Real*)rays + FACET_LANES * k;
-    Real a[8] = {from[0], from[1], from[2], from[3], from[4], from[5], from[6], from[7]};
-    transpose(a);
-    o[k].x = a[0], o[k].y = a[1], o[k].z = a[2];
-    d[k].x = a[4], d[k].y = a[5], d[k].z = a[6];
-    if (do_signs_differ(d[k], first)) return false;
-    part[k].tmin = a[3] < 0.0f ? in_all(0.0f) : a[3];
-    part[k].t = a[7];
-    part[k].v = part[k].w = part[k].det = in_all(0.0f);
-    part[k].slot = (uint8)(FACET_NONE);
-    usable &= lanes_of(part[k].tmin <= part[k].t);
-    least = k == 0u ? o[0] : smaller_points(o[k], least);
-    most = k == 0u ? o[0] : larger_points(o[k], most);
+// Whether they start close, and have anything to look for.
+static inline bool can_go_together(const PacketPart* part, float3 reach) {
+  Points least = part[0].o, most = least;
+  Mask has_way = part[0].tmin <= part[0].t;
+  for (uint k = 1u; k < FACET_PARTS; ++k) {
+    least = smaller_points(part[k].o, least);
+    most = larger_points(part[k].o, most);
+    has_way &= part[k].tmin <= part[k].t;
   }
   const float3 width = (float3)(most_of(most.x) - least_of(least.x), most_of(most.y) - least_of(least.y),
                                 most_of(most.z) - least_of(least.z));
-  if (!(larger(width.x, larger(width.y, width.z)) <=
-        FACET_PACKET_WIDTH * larger(reach.x, larger(reach.y, reach.z))))
-    return false;
+  return is_all(has_way) && larger(width.x, larger(width.y, width.z)) <=
+                                FACET_PACKET_WIDTH * larger(reach.x, larger(reach.y, reach.z));
+}
+
+// The rays in one space, the parts' o and d in it. False if they cannot be traced together there: one cannot
+// be used; the signs or main axes of their directions differ.
+static inline bool packet_in(const PacketPart* part, const Points* o, const Points* d, float3 reach,
+                             PacketSpace* space) {
+  const float3 centre = (float3)(o->x.s0, o->y.s0, o->z.s0), first = (float3)(d->x.s0, d->y.s0, d->z.s0);
   const uint axis = main_axis(first);
+  Real extent = in_all(0.0f), offsets = in_all(0.0f);
   for (uint k = 0u; k < FACET_PARTS; ++k) {
+    if (do_signs_differ(d[k], first)) return false;
     Real e;
-    Rays* r = &part[k].rays;
+    Rays* r = &space->rays[k];
     rays_of(r, axis, o[k], d[k], reach, &e);
     extent = larger_each(e, extent);
     offsets += (r->near_offset.x + r->near_offset.y) + r->near_offset.z;
   }
   // A sum is NaN or infinite where a term is, and an offset where o, d or their product is, but for an infinite
   // d: its inverse is 0, which are_rays_usable finds.
-  usable &= lanes_of(fabs(offsets) < INFINITY);
-  if (usable != (1u << FACET_LANES) - 1u) return false;
-  *b = beam_of(part, centre, most_of(extent));
-  return are_rays_usable(b, axis, most_of(extent));
+  if (!is_all(fabs(offsets) < INFINITY)) return false;
+  space->beam = beam_of(space->rays, part, centre, most_of(extent));
+  return are_rays_usable(&space->beam, axis, most_of(extent));
 }
+
+// In the world; false also where they had better not go together.
+static inline bool packet_of(const PacketPart* part, float3 reach, PacketSpace* world) {
+  if (!can_go_together(part, reach)) return false;
+  Points o[FACET_PARTS], d[FACET_PARTS];
+  for (uint k = 0u; k < FACET_PARTS; ++k) o[k] = part[k].o, d[k] = part[k].d;
+  world->place = FACET_NONE;
+  return packet_in(part, o, d, reach, world);
+}
+
+#ifndef FACET_NO_INSTANCES
+
+// Where rays meet a box, as box.h's box_interval.
+static inline Intervals box_intervals(const Rays* r, float3 lo, float3 hi) {
+  const Points d = r->inverse, n = r->near_offset, f = r->far_offset;
+  Intervals i;
+  i.near = larger_each(crossing_of(in_all(lo.x), in_all(hi.x), d.x, n.x), in_all(-INFINITY));
+  i.near = larger_each(crossing_of(in_all(lo.y), in_all(hi.y), d.y, n.y), i.near);
+  i.near = larger_each(crossing_of(in_all(lo.z), in_all(hi.z), d.z, n.z), i.near);
+  i.far = smaller_each(crossing_of(in_all(hi.x), in_all(lo.x), d.x, f.x), in_all(INFINITY));
+  i.far = smaller_each(crossing_of(in_all(hi.y), in_all(lo.y), d.y, f.y), i.far);
+  i.far = smaller_each(crossing_of(in_all(hi.z), in_all(lo.z), d.z, f.z), i.far);
+  return i;
+}
+
+// Takes the world's rays into an instance. False if they cannot go on together there.
+static inline bool packet_in_instance(const Scene* s, uint place, const PacketPart* part,
+                                      const PacketSpace* world, PacketSpace* inner) {
+  __global const Instance* i = &s->instances[place];
+  Points o[FACET_PARTS], d[FACET_PARTS];
+  for (uint k = 0u; k < FACET_PARTS; ++k) {
+    inner->outer[k] = box_intervals(&world->rays[k], vec_global(i->lo), vec_global(i->hi));
+    o[k] = map_points(i->object_from_world, part[k].o);
+    d[k] = map_vectors(i->object_from_world, part[k].d);
+  }
+  inner->place = place;
+  return packet_in(part, o, d, vec_global(i->reach), inner);
+}
+
+#endif
 
 #endif

@@ -69,10 +69,11 @@ __kernel void probe_passages(__global const World* world, __global const SceneNo
   const bool is_point = distance < INFINITY;
   Media media = no_media();
   media.of[0] = medium;
-  const Query q = crossings(&s, positions, o, d, distance, is_point ? distance : 0.0f);
+  const Way way = {o, d, distance, is_point, media};
+  const Query q = shadow_query(&s, positions, &way);
   __global Passage* out = &passages[i];
   out->is_dark = q.triangle != FACET_NONE;
   out->entries = q.entries;
   out->exits = q.exits;
-  put(out->transmittance, transmittance(&s, positions, o, d, distance, is_point, media));
+  put(out->transmittance, transmittance(&s, &way, q));
 }

@@ -65,14 +65,18 @@ static inline long fixed_depth(float x) {
   return convert_long_rte(limited * 4294967296.0f);
 }
 
+static inline void add_depth(long* depth, __global const Material* m, float t_end, float t, bool is_front) {
+  const float inside = is_front ? t_end - t : -(t_end - t);
+  for (int c = 0; c < 3; ++c)
+    depth[c] += fixed_depth(m->minus_ln_Kt[c]) + fixed_depth(inside * m->sigma[c]);
+}
+
 static inline void add_crossing(Query* q, __global const Material* m, float t, bool is_front) {
-  const float inside = is_front ? q->t_end - t : -(q->t_end - t);
 #ifdef FACET_COUNT_CROSSINGS
   q->entries += is_front;
   q->exits += !is_front;
 #endif
-  for (int c = 0; c < 3; ++c)
-    q->depth[c] += fixed_depth(m->minus_ln_Kt[c]) + fixed_depth(inside * m->sigma[c]);
+  add_depth(q->depth, m, q->t_end, t, is_front);
 }
 
 static inline uint instance_of(const Scene* s, uint place) {
@@ -120,7 +124,8 @@ static inline bool meet_triangles(const Scene* s, GEOMETRY positions, const Spac
                                   Interval outer, uint first, float tmin, uint mode, Query* q) {
   TriangleHits hits;
   const Rays ray = in_all_lanes(space);
-  uint left = lanes_where(hit_triangles(&ray, triangles_from(positions, first), outer, in_all(tmin),
+  const Intervals each = {in_all(outer.near), in_all(outer.far)};
+  uint left = lanes_where(hit_triangles(&ray, triangles_from(positions, first), each, in_all(tmin),
                                         in_all(q->t), FACET_LANES > 1u, mode == FACET_CROSSINGS, &hits));
   for (; left != 0u; left = without_first(left)) {
     const uint lane = first_lane(left);

@@ -1,4 +1,5 @@
 // A tile of a picture: one pixel a work-item, the mean of its samples.
+#include "eye.h"
 #include "states.h"
 
 __kernel void render(__global const World* world, __global const SceneNode* nodes,
@@ -13,12 +14,7 @@ __kernel void render(__global const World* world, __global const SceneNode* node
   const uint n = view->samples;
   float4 sum = (float4)(0.0f);
   for (uint j = 0; j < n; ++j)
-    for (uint i = 0; i < n; ++i) {
-      const float sx = (float)x + ((float)i + 0.5f) / (float)n;
-      const float sy = (float)y + ((float)j + 0.5f) / (float)n;
-      const float3 direction = normalize3((vec_global(view->corner) + vec_global(view->dx) * sx) +
-                                          vec_global(view->dy) * sy);
-      sum = sum + radiance(&s, positions, normals, lights, view, vec_global(view->origin), direction);
-    }
+    for (uint i = 0; i < n; ++i)
+      sum = sum + radiance(&s, positions, normals, lights, view, eye_direction(view, x, y, i, j));
   pixels[(size_t)y * view->width + x] = sum / (float)(n * n);
 }

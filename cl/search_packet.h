@@ -1,17 +1,13 @@
 // A search through trees of eight children a node for a packet of rays (packet.h), until few of them are
-// left in a node: those go on alone. Without instances.
+// left in a node: those go on alone.
 //
 // Rays visit more than each would by itself, which changes no hit (box.h); nothing is left out that one of
 // them must visit.
 #ifndef FACET_SEARCH_PACKET_H
 #define FACET_SEARCH_PACKET_H
 
-#ifndef FACET_NO_INSTANCES
-#error "packets are for scenes without instances"
-#endif
-
 #include "packet.h"
-#include "search_wide.h"
+#include "traverse.h"
 
 // So many rays go on alone from a node.
 #define FEW_RAYS 2u
@@ -20,8 +16,8 @@
 #define TESTS_OF_RAY 4u
 
 // The lanes whose rays meet a node's child before their best hits, as box.h has it.
-static inline uint rays_that_meet(const PacketPart* p, const Beam* b, __global const float* faces) {
-  const Rays* r = &p->rays;
+static inline uint rays_that_meet(const PacketPart* p, const Rays* r, const Beam* b,
+                                  __global const float* faces) {
   const Real nx = fma(in_all(faces[b->x.side]), r->inverse.x, r->near_offset.x);
   const Real fx = fma(in_all(faces[FACET_SIDE - b->x.side]), r->inverse.x, r->far_offset.x);
   const Real ny = fma(in_all(faces[2u * FACET_SIDE + b->y.side]), r->inverse.y, r->near_offset.y);
@@ -54,59 +50,112 @@ static inline uint triangles_in_beam(const Beam* b, Triangles block, float best)
   return lanes_of(near <= far);
 }
 
+// Of the best hit.
+static inline uint place_in_lane(const PacketPart* p, uint lane) {
+#ifdef FACET_NO_INSTANCES
+  return 0u;
+#else
+  return ((const uint*)&p->place)[lane];
+#endif
+}
+
+static inline void put_place(PacketPart* p, Mask where, uint place) {
+#ifndef FACET_NO_INSTANCES
+  p->place = where ? (uint8)(place) : p->place;
+#endif
+}
+
 // Of the lanes in `tied`, which meet a triangle at their best hit's distance, those that keep their best hit.
-SELDOM Mask keep_of(const Scene* s, uint8 best, uint slot, uint tied) {
-  uint slots[FACET_LANES];
+SELDOM Mask keep_of(const Scene* s, const PacketPart* p, uint place, uint slot, uint tied) {
   int keep[FACET_LANES] = {0};
-  vstore8(best, 0, slots);
   for (; tied != 0u; tied = without_first(tied)) {
-    const uint lane = first_lane(tied);
-    keep[lane] = slots[lane] == FACET_NONE || is_before(s, 0u, slot, 0u, slots[lane]) ? 0 : -1;
+    const uint lane = first_lane(tied), best = ((const uint*)&p->slot)[lane];
+    keep[lane] = best == FACET_NONE || is_before(s, place, slot, place_in_lane(p, lane), best) ? 0 : -1;
   }
   return vload8(0, keep);
 }
 
-static inline void meet_one(const Scene* s, PacketPart* p, Triangles one, uint slot, uint mode) {
-  const Interval outer = {-INFINITY, INFINITY};
-  TriangleHits hits;
-  Mask met = hit_triangles(&p->rays, one, outer, p->tmin, p->t, false, false, &hits);
-  if (is_none(met)) return;
-  if (mode == FACET_ANY) {
-    p->t = met ? in_all(-INFINITY) : p->t;
-    p->slot = met ? (uint8)(slot) : p->slot;
-    return;
+static inline void answer(PacketPart* p, Mask where) {
+  p->t = where ? in_all(-INFINITY) : p->t;
+  p->slot = where ? (uint8)(0u) : p->slot;
+}
+
+#ifndef FACET_NO_TRANSPARENCY
+static inline void cross_one(const Scene* s, PacketPart* p, const TriangleHits* hits, Mask met, uint place,
+                             uint slot) {
+  __global const Material* m = &s->materials[material_of(s, place, slot)];
+  if (!m->transparent) return answer(p, met);
+  const uint front = lanes_of(hits->is_front);
+  for (uint lanes = lanes_of(met & hits->is_counted); lanes != 0u; lanes = without_first(lanes)) {
+    const uint lane = first_lane(lanes);
+    add_depth(p->depth[lane], m, stored_lane(&p->t_end, lane), stored_lane(&hits->t, lane),
+              front >> lane & 1u);
   }
+}
+#endif
+
+static inline void meet_one(const Scene* s, PacketPart* p, const Rays* r, Intervals outer, Triangles one,
+                            uint place, uint slot, uint mode) {
+  TriangleHits hits;
+  Mask met = hit_triangles(r, one, outer, p->tmin, p->t, false, mode == FACET_CROSSINGS, &hits);
+  if (is_none(met)) return;
+  if (mode == FACET_ANY) return answer(p, met);
+#ifndef FACET_NO_TRANSPARENCY
+  if (mode == FACET_CROSSINGS) return cross_one(s, p, &hits, met, place, slot);
+#endif
   const uint tied = lanes_of(met & (hits.t == p->t));
-  if (tied != 0u) met &= ~keep_of(s, p->slot, slot, tied);
+  if (tied != 0u) met &= ~keep_of(s, p, place, slot, tied);
   p->t = met ? hits.t : p->t;
   p->v = met ? hits.v : p->v;
   p->w = met ? hits.w : p->w;
   p->det = met ? hits.det : p->det;
   p->slot = met ? (uint8)(slot) : p->slot;
+  put_place(p, met, place);
 }
 
 // One ray's search from a node on.
-SELDOM void search_alone(const Scene* s, GEOMETRY positions, uint node, PacketPart* p, uint lane,
-                                uint mode) {
+SELDOM void search_alone(const Scene* s, GEOMETRY positions, uint node, const PacketSpace* in, uint part,
+                         PacketPart* p, uint lane, uint mode) {
   float *t = (float*)&p->t, *det = (float*)&p->det;
   uint* slot = (uint*)&p->slot;
-  Space space = space_in_lane(&p->rays, lane);
+  Space space = space_in_lane(&in->rays[part], lane);
+  Interval outer = {-INFINITY, INFINITY};
+#ifndef FACET_NO_INSTANCES
+  if (in->place != FACET_NONE) {
+    outer.near = stored_lane(&in->outer[part].near, lane);
+    outer.far = stored_lane(&in->outer[part].far, lane);
+  }
+#endif
   Query q;
   q.t = t[lane];
-  q.place = 0u;
+  q.place = place_in_lane(p, lane);
   q.slot = slot[lane];
   q.triangle = FACET_NONE;
-  // No instances: the ray in the world is not asked for.
-  search_from(s, positions, node, space.o, space.o, stored_lane(&p->tmin, lane), mode, &space, &q);
-  if (mode == FACET_ANY) {
-    if (q.triangle == FACET_NONE) return;
-    t[lane] = -INFINITY;
-    slot[lane] = 0u;
-  } else if (q.slot != slot[lane]) {
+#ifndef FACET_NO_TRANSPARENCY
+  if (mode == FACET_CROSSINGS) {
+    q.t_end = stored_lane(&p->t_end, lane);
+    for (int c = 0; c < 3; ++c) q.depth[c] = p->depth[lane][c];
+  }
+#endif
+  search_from(s, positions, node, in->place, outer, point_in_lane(&p->o, lane), point_in_lane(&p->d, lane),
+              stored_lane(&p->tmin, lane), mode, &space, &q);
+  if (mode == FACET_CLOSEST) {
+    if (q.slot == slot[lane] && q.place == place_in_lane(p, lane)) return;
     t[lane] = q.t;
     slot[lane] = q.slot;
     det[lane] = 0.0f;
+#ifndef FACET_NO_INSTANCES
+    ((uint*)&p->place)[lane] = q.place;
+#endif
+    return;
   }
+#ifndef FACET_NO_TRANSPARENCY
+  if (mode == FACET_CROSSINGS)
+    for (int c = 0; c < 3; ++c) p->depth[lane][c] = q.depth[c];
+#endif
+  if (q.triangle == FACET_NONE) return;
+  t[lane] = -INFINITY;
+  slot[lane] = 0u;
 }
 
 // Puts the children in `lanes` on the stack, the nearest last, each as node and lane: which rays meet it is asked
@@ -126,55 +175,123 @@ static inline void push_in_order(const Scene* s, GEOMETRY positions, uint node, 
   }
 }
 
+static inline void all_alone(const Scene* s, GEOMETRY positions, uint node, const PacketSpace* space,
+                             PacketPart* part, uint rays, uint mode) {
+  for (; rays != 0u; rays = without_first(rays)) {
+    const uint k = first_lane(rays) / FACET_LANES, lane = first_lane(rays) % FACET_LANES;
+    search_alone(s, positions, node, space, k, &part[k], lane, mode);
+  }
+}
+
+// The triangles of a leaf; `rays` meet its box.
+static inline void meet_block(const Scene* s, GEOMETRY positions, uint leaf, const PacketSpace* space,
+                              PacketPart* part, uint rays, float best, uint mode) {
+  const uint block = FACET_LEAF_FIRST(leaf);
+  const Triangles triangles = triangles_from(positions, block);
+  uint left = triangles_in_beam(&space->beam, triangles, best), parts = 0u;
+  for (uint k = 0u; k < FACET_PARTS; ++k) parts += (rays >> FACET_LANES * k & 0xffu) != 0u;
+  if (popcount(rays) <= popcount(left) * parts / TESTS_OF_RAY)
+    return all_alone(s, positions, leaf, space, part, rays, mode);
+  for (; left != 0u; left = without_first(left)) {
+    const uint at = first_lane(left);
+    for (uint k = 0u; k < FACET_PARTS; ++k) {
+#ifdef FACET_NO_INSTANCES
+      const Intervals outer = {in_all(-INFINITY), in_all(INFINITY)};
+      const uint place = 0u;
+#else
+      const Intervals outer = space->outer[k];
+      const uint place = space->place;
+#endif
+      if (rays >> FACET_LANES * k & 0xffu)
+        meet_one(s, &part[k], &space->rays[k], outer, one_triangle(triangles, at), place,
+                 FACET_LANES * block + at, mode);
+    }
+  }
+}
+
+// Takes from the stack the next child that rays meet, lane k of part j being bit FACET_LANES * j + k; false if
+// there is none.
+static inline bool next_child(const Scene* s, const PacketPart* part, PacketSpace* world, PacketSpace** space,
+                              float best, const ulong* stack, int* top, uint* child, uint* rays) {
+  while (*top > 0) {
+    const ulong entry = stack[--*top];
+    if (entry == FACET_INSTANCE_ENDS) {
+      *space = world;
+      continue;
+    }
+    if (near_of(entry) > best) continue;
+    __global const WideNode* parent = s->nodes + (uint)entry / 8u;
+    const uint lane = (uint)entry % 8u;
+    uint some = 0u;
+    for (uint k = 0u; k < FACET_PARTS; ++k)
+      some |= rays_that_meet(&part[k], &(*space)->rays[k], &(*space)->beam, parent->x[0] + lane)
+              << FACET_LANES * k;
+    if (some == 0u) continue;
+    *rays = some;
+    *child = parent->child[lane];
+    return true;
+  }
+  return false;
+}
+
 // A node leaves at most seven children waiting once its nearest is taken, and all eight until then: one entry
 // more than what search_wide.h needs.
-static inline void search_packet(const Scene* s, GEOMETRY positions, const Beam* b, uint mode,
+static inline void search_packet(const Scene* s, GEOMETRY positions, PacketSpace* world, uint mode,
                                  PacketPart* part) {
   ulong stack[FACET_STACK + 1];
   int top = 0;
-  uint node = s->root;
+  uint child = s->root, rays = ~0u >> (32u - FACET_PACKET);
   float best = best_of(part);
+  PacketSpace* space = world;
+#ifdef FACET_NO_INSTANCES
+  const bool is_in_tree = true;
+#else
+  bool is_in_tree = false;
+  PacketSpace inner;
+#endif
   for (;;) {
-    Each near;
-    const uint lanes = children_in_beam(b, s->nodes[node].x[0], best, &near);
-    push_in_order(s, positions, node, lanes, near, stack, &top);
-    for (;;) {
-      if (top == 0) return;
-      const ulong entry = stack[--top];
-      if (near_of(entry) > best) continue;
-      __global const WideNode* parent = s->nodes + (uint)entry / 8u;
-      const uint lane = (uint)entry % 8u, child = parent->child[lane];
-      uint rays = 0u, parts = 0u;
-      for (uint k = 0u; k < FACET_PARTS; ++k) {
-        const uint some = rays_that_meet(&part[k], b, parent->x[0] + lane);
-        rays |= some << FACET_LANES * k;
-        parts += some != 0u;
+    const bool is_leaf = child & FACET_LEAF_BIT, are_few = popcount(rays) <= FEW_RAYS;
+    if (!is_leaf && !are_few) {
+      Each near;
+      const uint lanes = children_in_beam(&space->beam, s->nodes[child].x[0], best, &near);
+      push_in_order(s, positions, child, lanes, near, stack, &top);
+    } else {
+#ifndef FACET_NO_INSTANCES
+      if (!is_in_tree && !are_few &&
+          packet_in_instance(s, FACET_LEAF_FIRST(child), part, world, &inner)) {
+        stack[top++] = FACET_INSTANCE_ENDS;
+        space = &inner;
+        is_in_tree = true;
+        child = s->instances[inner.place].root;
+        continue;
       }
-      if (rays == 0u) continue;
-      const bool is_leaf = child & FACET_LEAF_BIT;
-      const uint block = FACET_LEAF_FIRST(child);
-      const Triangles triangles = triangles_from(positions, block);
-      uint left = is_leaf ? triangles_in_beam(b, triangles, best) : 0u;
-      if (popcount(rays) <= (is_leaf ? popcount(left) * parts / TESTS_OF_RAY : FEW_RAYS)) {
-        for (; rays != 0u; rays = without_first(rays)) {
-          const uint ray = first_lane(rays);
-          search_alone(s, positions, child, &part[ray / FACET_LANES], ray % FACET_LANES, mode);
-        }
-      } else if (is_leaf) {
-        for (; left != 0u; left = without_first(left)) {
-          const uint at = first_lane(left);
-          for (uint k = 0u; k < FACET_PARTS; ++k)
-            if (rays >> FACET_LANES * k & 0xffu)
-              meet_one(s, &part[k], one_triangle(triangles, at), FACET_LANES * block + at, mode);
-        }
-      } else {
-        node = child;
-        break;
-      }
+#endif
+      if (is_leaf && is_in_tree)
+        meet_block(s, positions, child, space, part, rays, best, mode);
+      else
+        all_alone(s, positions, child, space, part, rays, mode);
       best = best_of(part);
       if (best == -INFINITY) return;
     }
+    if (!next_child(s, part, world, &space, best, stack, &top, &child, &rays)) return;
+#ifndef FACET_NO_INSTANCES
+    is_in_tree = space != world;
+#endif
   }
+}
+
+// The hit that a lane has met, its shares computed anew. `world` has the lane's rays there.
+static inline Query met_in_lane(const Scene* s, GEOMETRY positions, const PacketPart* p, const Rays* world,
+                                uint lane) {
+  Query q;
+  q.t = stored_lane(&p->t, lane);
+  q.slot = ((const uint*)&p->slot)[lane];
+  q.place = place_in_lane(p, lane);
+  q.u = q.v = 0.0f;
+  q.instance = q.triangle = FACET_NONE;
+  Space space = space_in_lane(world, lane);
+  finish(s, positions, point_in_lane(&p->o, lane), point_in_lane(&p->d, lane), &space, &q);
+  return q;
 }
 
 #endif

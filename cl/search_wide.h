@@ -66,15 +66,18 @@ static inline uint push_unsorted(const Scene* s, GEOMETRY positions, __global co
 // Depth first, the nearest child first. A node leaves at most seven children waiting, so seven times
 // the depth of the trees, and one for the mark, are enough for the stack: FACET_STACK is at least
 // that (host/tracer/wide_geometry.cpp), and it cannot overflow.
-static inline void search_from(const Scene* s, GEOMETRY positions, uint node, float3 o, float3 d, float tmin,
-                               uint mode, Space* space, Query* q) {
+//
+// It begins at a node of the tree of the instance at `place`, whose box the ray meets in `outer`, or of the
+// world's (place FACET_NONE); `space` is the ray's there, o and d are the ray in the world.
+static inline void search_from(const Scene* s, GEOMETRY positions, uint node, uint place, Interval outer,
+                               float3 o, float3 d, float tmin, uint mode, Space* space, Query* q) {
   ulong stack[FACET_STACK];
   int top = 0;
-  Interval outer = {-INFINITY, INFINITY};
-  uint place = 0u;
   Sides sides = near_sides(space->slabs);
-#ifndef FACET_NO_INSTANCES
-  bool is_inside = false;  // in an instance's tree
+#ifdef FACET_NO_INSTANCES
+  place = 0u;
+#else
+  bool is_inside = place != FACET_NONE;
   const Slabs world = space->slabs;
 #endif
   for (;;) {
@@ -122,7 +125,8 @@ static inline void search_from(const Scene* s, GEOMETRY positions, uint node, fl
 
 static inline void search(const Scene* s, GEOMETRY positions, float3 o, float3 d, float tmin, uint mode,
                           Space* space, Query* q) {
-  search_from(s, positions, s->root, o, d, tmin, mode, space, q);
+  const Interval outer = {-INFINITY, INFINITY};
+  search_from(s, positions, s->root, FACET_NONE, outer, o, d, tmin, mode, space, q);
 }
 
 #endif

@@ -93,57 +93,89 @@ static inline State branch(const Scene* s, const Surface* f, __global const Mate
 #endif
 }
 
-// The light that comes to `origin` from unit direction `direction`; alpha is 1 where something
-// is met.
+// A pixel's sample under way; the rays that wait lie beside it.
+typedef struct {
+  PendingRay ray;
+  float3 sum;
+  float alpha;  // 1 where something is met
+  uint count;   // of rays that wait
+} Path;
+
+static inline Path path_of(__global const View* view, float3 direction) {
+  const Path p = {{vec_global(view->origin), direction, (float3)(1.0f), 0u, media_of(view->media)},
+                  (float3)(0.0f),
+                  1.0f,
+                  0u};
+  return p;
+}
+
+static inline void escape(Path* p, __global const View* view) {
+  p->sum = p->sum + p->ray.throughput * vec_global(view->background);
+  if (p->ray.depth == 0u) p->alpha = view->background_alpha;
+}
+
+// Takes in the way to the surface that `q` tells of, and what it sends by itself.
+static inline Surface arrive(const Scene* s, GEOMETRY positions, GEOMETRY normals,
+                             __global const View* view, const Query* q, Path* p) {
+  PendingRay* ray = &p->ray;
+#ifndef FACET_NO_TRANSPARENCY
+  if (!is_empty(ray->media)) {
+    const float3 depth = absorption(s, ray->media) * q->t;
+    ray->throughput =
+        ray->throughput * (float3)(exp_strict(-depth.x), exp_strict(-depth.y), exp_strict(-depth.z));
+  }
+#endif
+  const Surface f = surface_at(s, positions, normals, q, ray->direction);
+  __global const Material* m = &s->materials[f.material];
+  p->sum = p->sum + ray->throughput * (vec_global(m->Ke) + vec_global(m->Ka) * vec_global(view->ambient));
+  return f;
+}
+
+static inline State resume(Path* p, const PendingRay* pending) {
+  if (p->count == 0u) return DONE;
+  p->ray = pending[--p->count];
+  return TRACE;
+}
+
+// The light that comes to the camera from unit direction `direction`, and alpha.
 static inline float4 radiance(const Scene* s, GEOMETRY positions, GEOMETRY normals,
-                              __global const Light* lights, __global const View* view, float3 origin,
+                              __global const Light* lights, __global const View* view,
                               float3 direction) {
   PendingRay pending[FACET_RAY_STACK];
-  uint count = 0u;
-  PendingRay ray = {origin, direction, (float3)(1.0f), 0u, media_of(view->media)};
-  float3 sum = (float3)(0.0f);
-  float alpha = 1.0f;
+  Path p = path_of(view, direction);
   Query q;
   State state = TRACE;
   while (state != DONE) {
     switch (state) {
       case TRACE:
-        q = traverse(s, positions, ray.origin, ray.direction, 0.0f, INFINITY, FACET_CLOSEST);
+        q = traverse(s, positions, p.ray.origin, p.ray.direction, 0.0f, INFINITY, FACET_CLOSEST);
         state = q.triangle == FACET_NONE ? ESCAPE : SHADE;
         break;
       case ESCAPE:
-        sum = sum + ray.throughput * vec_global(view->background);
-        if (ray.depth == 0u) alpha = view->background_alpha;
+        escape(&p, view);
         state = RESUME;
         break;
       case SHADE: {
-#ifndef FACET_NO_TRANSPARENCY
-        if (!is_empty(ray.media)) {
-          const float3 depth = absorption(s, ray.media) * q.t;
-          ray.throughput = ray.throughput * (float3)(exp_strict(-depth.x), exp_strict(-depth.y),
-                                                     exp_strict(-depth.z));
-        }
-#endif
-        const Surface f = surface_at(s, positions, normals, &q, ray.direction);
+        const Surface f = arrive(s, positions, normals, view, &q, &p);
         __global const Material* m = &s->materials[f.material];
-        sum = sum + ray.throughput * (vec_global(m->Ke) + vec_global(m->Ka) * vec_global(view->ambient));
-        for (uint i = 0; i < view->light_count; ++i)
-          sum = sum + ray.throughput * lit_by(s, positions, &lights[i], &f, m, ray.direction, ray.media);
-        state = branch(s, &f, m, &ray, pending, &count, view->max_depth);
+        for (uint i = 0; i < view->light_count; ++i) {
+          Lighting to;
+          float3 lit = (float3)(0.0f);
+          if (faces_light(s, &lights[i], &f, m, p.ray.media, &to))
+            lit = lit_by(&lights[i], &to, &f, m, p.ray.direction,
+                         transmittance(s, &to.way, shadow_query(s, positions, &to.way)));
+          p.sum = p.sum + p.ray.throughput * lit;
+        }
+        state = branch(s, &f, m, &p.ray, pending, &p.count, view->max_depth);
         break;
       }
       case RESUME:
       default:
-        if (count == 0u) {
-          state = DONE;
-        } else {
-          ray = pending[--count];
-          state = TRACE;
-        }
+        state = resume(&p, pending);
         break;
     }
   }
-  return (float4)(sum, alpha);
+  return (float4)(p.sum, p.alpha);
 }
 
 #endif

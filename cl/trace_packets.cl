@@ -1,16 +1,16 @@
 // Rays from a buffer, hits to a buffer: FACET_PACKET rays a work-item, together where they stay close
-// (search_packet.h), or else one after the other. Without instances.
+// (search_packet.h), or else one after the other.
 #include "search_packet.h"
 #include "trace.h"
 
 // The shares of the hits that rays have met alone.
-static inline void find_shares(const PacketPart* p, GEOMETRY positions, uint lanes, Real* u, Real* v) {
+static inline void find_shares(const Scene* s, GEOMETRY positions, const PacketPart* p, const Rays* rays,
+                               uint lanes, Real* u, Real* v) {
   for (; lanes != 0u; lanes = without_first(lanes)) {
-    const uint lane = first_lane(lanes), slot = ((const uint*)&p->slot)[lane];
-    const Space space = space_in_lane(&p->rays, lane);
-    const float2 shares = shares_in_slot(&space, positions, slot);
-    ((float*)u)[lane] = shares.x;
-    ((float*)v)[lane] = shares.y;
+    const uint lane = first_lane(lanes);
+    const Query q = met_in_lane(s, positions, p, rays, lane);
+    ((float*)u)[lane] = q.u;
+    ((float*)v)[lane] = q.v;
   }
 }
 
@@ -24,41 +24,63 @@ static inline void write_hits(__global Hit* hits, Real t, Real u, Real v, uint8 
   two[3] = (float8)(t.s6, u.s6, v.s6, n.s6, t.s7, u.s7, v.s7, n.s7);
 }
 
-static inline void write_part(const Scene* s, GEOMETRY positions, const PacketPart* p, uint mode,
-                              __global Hit* hits) {
+static inline void write_part(const Scene* s, GEOMETRY positions, const PacketPart* p, const Rays* rays,
+                              uint mode, __global Hit* hits, __global uint* hit_instances) {
   const Mask is_hit = p->slot != FACET_NONE;
   if (mode == FACET_ANY) {
     write_hits(hits, is_hit ? in_all(0.0f) : p->t, in_all(0.0f), in_all(0.0f),
                is_hit ? (uint8)(0u) : (uint8)(FACET_NONE));
+#ifndef FACET_NO_INSTANCES
+    vstore8(is_hit ? (uint8)(0u) : (uint8)(FACET_NONE), 0, hit_instances);
+#endif
     return;
   }
   Real u = is_hit ? p->v / p->det : in_all(0.0f), v = is_hit ? p->w / p->det : in_all(0.0f);
-  find_shares(p, positions, lanes_of(is_hit & (p->det == 0.0f)), &u, &v);
+  find_shares(s, positions, p, rays, lanes_of(is_hit & (p->det == 0.0f)), &u, &v);
   uint of[FACET_LANES];
   vstore8(is_hit ? p->slot : (uint8)(0u), 0, of);
   for (uint lane = 0u; lane < FACET_LANES; ++lane) of[lane] = s->infos[of[lane]].triangle;
   write_hits(hits, p->t, u, v, is_hit ? vload8(0, of) : (uint8)(FACET_NONE));
+#ifndef FACET_NO_INSTANCES
+  for (uint lane = 0u; lane < FACET_LANES; ++lane)
+    hit_instances[lane] =
+        is_in(is_hit, lane) ? instance_of(s, place_in_lane(p, lane)) : FACET_NONE;
+#endif
 }
 
 SELDOM void trace_alone(const Scene* s, GEOMETRY positions, __global const Ray* rays, uint count, uint mode,
-                        __global Hit* hits) {
+                        __global Hit* hits, __global uint* hit_instances) {
   for (uint i = 0u; i < count; ++i) {
     const Query q = traced_query(s, positions, rays + i, mode);
     hits[i] = hit_of(&q);
+#ifndef FACET_NO_INSTANCES
+    hit_instances[i] = q.instance;
+#endif
   }
 }
 
+static inline void read_part(__global const Ray* rays, PacketPart* p) {
+  __global const Real* from = (__global const Real*)rays;
+  Real a[8] = {from[0], from[1], from[2], from[3], from[4], from[5], from[6], from[7]};
+  transpose(a);
+  const Points o = {a[0], a[1], a[2]}, d = {a[4], a[5], a[6]};
+  begin_part(p, o, d, a[3], a[7]);
+}
+
 static inline void trace_some(const Scene* s, GEOMETRY positions, __global const Ray* rays, uint count,
-                              uint mode, __global Hit* hits) {
+                              uint mode, __global Hit* hits, __global uint* hit_instances) {
   PacketPart part[FACET_PARTS];
-  Beam beam;
-  const bool has_nodes = s->triangle_count != 0u && !(s->root & FACET_LEAF_BIT);
-  if (has_nodes && count == FACET_PACKET && packet_of(rays, s->reach, part, &beam)) {
-    search_packet(s, positions, &beam, mode, part);
-    for (uint k = 0u; k < FACET_PARTS; ++k) write_part(s, positions, &part[k], mode, hits + FACET_LANES * k);
-    return;
+  PacketSpace world;
+  bool is_packet = s->triangle_count != 0u && count == FACET_PACKET;
+  if (is_packet) {
+    for (uint k = 0u; k < FACET_PARTS; ++k) read_part(rays + FACET_LANES * k, &part[k]);
+    is_packet = packet_of(part, s->reach, &world);
   }
-  trace_alone(s, positions, rays, count, mode, hits);
+  if (!is_packet) return trace_alone(s, positions, rays, count, mode, hits, hit_instances);
+  search_packet(s, positions, &world, mode, part);
+  for (uint k = 0u; k < FACET_PARTS; ++k)
+    write_part(s, positions, &part[k], &world.rays[k], mode, hits + FACET_LANES * k,
+               hit_instances + FACET_LANES * k);
 }
 
 __kernel void trace_closest(__global const World* world, __global const SceneNode* nodes,
@@ -69,7 +91,8 @@ __kernel void trace_closest(__global const World* world, __global const SceneNod
   const uint first = FACET_PACKET * (uint)get_global_id(0);
   if (first >= count) return;
   const Scene s = scene_of(world, nodes, instances, infos, materials, faults);
-  trace_some(&s, positions, rays + first, min(FACET_PACKET, count - first), FACET_CLOSEST, hits + first);
+  trace_some(&s, positions, rays + first, min(FACET_PACKET, count - first), FACET_CLOSEST, hits + first,
+             hit_instances + first);
 }
 
 __kernel void trace_any(__global const World* world, __global const SceneNode* nodes,
@@ -80,5 +103,6 @@ __kernel void trace_any(__global const World* world, __global const SceneNode* n
   const uint first = FACET_PACKET * (uint)get_global_id(0);
   if (first >= count) return;
   const Scene s = scene_of(world, nodes, instances, infos, materials, faults);
-  trace_some(&s, positions, rays + first, min(FACET_PACKET, count - first), FACET_ANY, hits + first);
+  trace_some(&s, positions, rays + first, min(FACET_PACKET, count - first), FACET_ANY, hits + first,
+             hit_instances + first);
 }

@@ -61,10 +61,4 @@ static inline Query traverse(const Scene* s, GEOMETRY positions, float3 o, float
   return traverse_to(s, positions, o, d, tmin, tmax, 0.0f, mode);
 }
 
-// All that is crossed from o on to `distance`; triangle is FACET_NONE unless something opaque is met.
-static inline Query crossings(const Scene* s, GEOMETRY positions, float3 o, float3 d, float distance,
-                              float end) {
-  return traverse_to(s, positions, o, d, 0.0f, distance, end, FACET_CROSSINGS);
-}
-
 #endif

@@ -70,11 +70,11 @@ static inline Real crossing_of(Real lo, Real hi, Real inverse, Real offset) {
 // Holds t to the interval of the triangle's own box, cut with `outer`: so no node that leads to the
 // triangle can have been left out (box.h). False where the two have nothing in common. It is
 // hardly ever needed.
-static inline Mask hold_to_boxes(const Rays* r, Triangles p, Interval outer, Real* t) {
+static inline Mask hold_to_boxes(const Rays* r, Triangles p, Intervals outer, Real* t) {
   Points lo, hi;
   bounds_of(p, &lo, &hi);
   const Points d = r->inverse, n = r->near_offset, f = r->far_offset;
-  Real near = in_all(outer.near), far = in_all(outer.far);
+  Real near = outer.near, far = outer.far;
   near = larger_each(crossing_of(lo.x, hi.x, d.x, n.x), near);
   near = larger_each(crossing_of(lo.y, hi.y, d.y, n.y), near);
   near = larger_each(crossing_of(lo.z, hi.z, d.z, n.z), near);
@@ -101,7 +101,7 @@ static inline Mask hold_to_boxes(const Rays* r, Triangles p, Interval outer, Rea
 // Nothing overflows: x and y are below 2^62, edge functions below 2^125, z at most 2. Edge
 // functions have lost no more than 2^-147 to underflow: with |det| >= 2^-120 that is below u E / 2, and
 // with |top| >= 2^-100 that of its products is below u |t|.
-INLINED Mask hit_triangles(const Rays* r, Triangles p, Interval outer, Real tmin, Real tmax, bool many,
+INLINED Mask hit_triangles(const Rays* r, Triangles p, Intervals outer, Real tmin, Real tmax, bool many,
                            bool count, TriangleHits* hits) {
   const Points a = sheared(r, p, 0), b = sheared(r, p, 1), c = sheared(r, p, 2);
   // Most of many triangles are passed by: these need no more than the signs.

@@ -95,16 +95,6 @@ void add_kernels(CLI::App& app, tracer::options& target) {
   app.add_flag("--all-features", target.all_features, "Compile what the scene does not need, too");
 }
 
-void add_packets(CLI::App& app, tracer::options& target) {
-  add_choice<tracer::packet_kind>(
-      app, "--packets", target.packets,
-      {{"auto", tracer::packet_kind::automatic},
-       {"on", tracer::packet_kind::on},
-       {"off", tracer::packet_kind::off}},
-      "Rays that follow one another go together where they stay close: for one mesh in\n"
-      "its own place, in the wide layout, with a tree (default auto: on CPUs)");
-}
-
 void add_tracing(CLI::App& app, tracing_options& target) {
   add_device(app, target.device, true);
   add_choice<tracer::tree_kind>(
@@ -113,6 +103,14 @@ void add_tracing(CLI::App& app, tracing_options& target) {
        {"levels", tracer::tree_kind::levels},
        {"none", tracer::tree_kind::none}},
       "Tree over the triangles; none tests every triangle (default binned)");
+  add_choice<tracer::packet_kind>(
+      app, "--packets", target.tracer.packets,
+      {{"auto", tracer::packet_kind::automatic},
+       {"on", tracer::packet_kind::on},
+       {"off", tracer::packet_kind::off}},
+      "Rays that follow one another, or pixels of a tile, are taken by one\n"
+      "work-item, together where they stay close: in the wide layout, with\n"
+      "a tree (default auto: on CPUs)");
   add_kernels(app, target.tracer);
 }
 

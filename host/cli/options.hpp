@@ -37,14 +37,11 @@ struct tracing_options {
   bool serial_double() const { return device == "serial-double"; }
 };
 
-/// --packets, of rays from a file.
-void add_packets(CLI::App& app, tracer::options& target);
-
 /// --device; `serial_too`: the serial tracers can be chosen.
 void add_device(CLI::App& app, std::string& target, bool serial_too);
 /// --geometry, --kernels, --all-features
 void add_kernels(CLI::App& app, tracer::options& target);
-/// --device, --tree, --geometry, --kernels, --all-features
+/// --device, --tree, --packets, --geometry, --kernels, --all-features
 void add_tracing(CLI::App& app, tracing_options& target);
 
 /// Refuses options that mean nothing to the serial tracer: a study must not believe that they did.

@@ -132,7 +132,7 @@ void write_stats(const arguments& o, picture_shape p, const tracer::statistics& 
 
 int run(const arguments& o) {
   if (o.tracing.serial())
-    refuse_with_serial(*o.app, {"--tree", "--geometry", "--kernels", "--all-features",
+    refuse_with_serial(*o.app, {"--tree", "--packets", "--geometry", "--kernels", "--all-features",
                                 "--work-group", "--tile-size"});
   check_outputs(o);
   const scene s = load_scene(o.scene);

@@ -182,7 +182,6 @@ command add_trace(CLI::App& program) {
       ->type_name("N")
       ->check(whole_number(1, 100000, "times"));
   add_tracing(*app, o->tracing);
-  add_packets(*app, o->tracing.tracer);
   app->add_option("--stats", o->stats, "Write times and choices to this file, as JSON")
       ->type_name("FILE");
   add_console(*app, o->say);

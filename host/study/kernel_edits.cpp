@@ -27,7 +27,7 @@ static inline Points first_corner(Triangles t, const Rays* r, Points* e1, Points
   return p0;
 }
 
-INLINED Mask hit_triangles(const Rays* r, Triangles t, Interval outer, Real tmin, Real tmax, bool many, bool count,
+INLINED Mask hit_triangles(const Rays* r, Triangles t, Intervals outer, Real tmin, Real tmax, bool many, bool count,
                            TriangleHits* hits) {
   Points e1, e2;
   const Points p0 = first_corner(t, r, &e1, &e2), d = r->direction;

@@ -152,6 +152,7 @@ class run {
     const variant_result& strict = result_.variants[0];
     if (&v != &strict && !v.of.is_shading_only) return strict.rays;
     tracer::options counted = options_for(v.of);
+    counted.packets = tracer::packet_kind::off;   // where each ray begins a search
     const bool is_plain = counted.edits.empty();  // strict kernels, of any depth
     counted.edits.push_back(count_rays);
     if (!is_plain || !counting_) counting_.emplace(queue_, scene_, counted);

@@ -17,10 +17,12 @@ kernel_edits unordered() {
 kernel_edits unheld() { return {{"triangle.h", "if (!is_none(is_held))", "if (false)"}}; }
 
 kernel_edits unchecked() {
-  return {{"space.h", "largest >= 8.673617379884035e-19f &&", "true ||"},
-          {"box.h", "is_known = fabs(c) < INFINITY;", "is_known = (int3)(-1);"},
-          {"packet.h", "if (usable != (1u << FACET_LANES) - 1u) return false;", ""},
-          {"packet.h", "return are_rays_usable(b, axis, most_of(extent));", "return true;"}};
+  return {
+      {"space.h", "largest >= 8.673617379884035e-19f &&", "true ||"},
+      {"box.h", "is_known = fabs(c) < INFINITY;", "is_known = (int3)(-1);"},
+      {"packet.h", "return is_all(has_way) && ", "return "},
+      {"packet.h", "if (!is_all(fabs(offsets) < INFINITY)) return false;", ""},
+      {"packet.h", "return are_rays_usable(&space->beam, axis, most_of(extent));", "return true;"}};
 }
 
 }  // namespace

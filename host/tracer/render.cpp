@@ -58,18 +58,32 @@ class tiler {
 };
 
 struct group_size {
-  std::uint32_t width, height;  ///< 0 x 0: the driver chooses
+  std::uint32_t width, height;  ///< work-items; 0 x 0: the driver chooses
 };
 
-group_size group_of(const options& o, const tuning& t) {
+group_size group_of(const options& o, const tuning& t, bool in_packets) {
   if (o.driver_group) return {0, 0};
-  return {o.group_width ? o.group_width : t.render_group_width,
-          o.group_height ? o.group_height : t.render_group_height};
+  const group_size usual = in_packets ? group_size{t.packet_group, 1}
+                                      : group_size{t.render_group_width, t.render_group_height};
+  return {o.group_width ? o.group_width : usual.width,
+          o.group_height ? o.group_height : usual.height};
+}
+
+/// Pixels of a work-item.
+struct item_size {
+  std::uint32_t width, height;
+};
+
+item_size item_of(bool in_packets) {
+  return in_packets ? item_size{FACET_PACKET_COLUMNS, FACET_PACKET / FACET_PACKET_COLUMNS}
+                    : item_size{1, 1};
 }
 
 /// The tile padded to whole work-groups; the kernel guards.
-void launch_over(runtime::handler& h, const tile& t, group_size g, const runtime::kernel& kernel) {
-  const std::size_t width = t.right - t.left, height = t.bottom - t.top;
+void launch_over(runtime::handler& h, const tile& t, item_size item, group_size g,
+                 const runtime::kernel& kernel) {
+  const std::size_t width = (t.right - t.left + item.width - 1) / item.width,
+                    height = (t.bottom - t.top + item.height - 1) / item.height;
   if (g.width == 0) return h.parallel_for(runtime::range<2>(width, height), kernel);
   const std::size_t columns = (width + g.width - 1) / g.width,
                     rows = (height + g.height - 1) / g.height;
@@ -98,7 +112,8 @@ picture device_scene::render(std::uint32_t width, std::uint32_t height, std::uin
   state& s = *state_;
   check_camera_media(s.model, s.camera_media);
   const View view = pack_view(s.model, s.camera_media, width, height, max_depth);
-  const group_size group = group_of(s.chosen, s.tuned);
+  const group_size group = group_of(s.chosen, s.tuned, s.in_packets);
+  const item_size item = item_of(s.in_packets);
   runtime::kernel kernel = s.render_kernel(max_depth);
 
   const std::uint64_t total = std::uint64_t(width) * height;
@@ -115,7 +130,7 @@ picture device_scene::render(std::uint32_t width, std::uint32_t height, std::uin
       g.set_arg(k++, t.top);
       g.set_arg(k++, t.right);
       g.set_arg(k++, t.bottom);
-      launch_over(g, t, group, kernel);
+      launch_over(g, t, item, group, kernel);
     });
   };
 
@@ -126,7 +141,7 @@ picture device_scene::render(std::uint32_t width, std::uint32_t height, std::uin
   std::uint64_t done = 0;
   double kernel_ms = 0;
   std::uint32_t tiles = 0;
-  tiler tiles_left(width, height, s.chosen, std::max(1u, group.height));
+  tiler tiles_left(width, height, s.chosen, std::max(1u, group.height) * item.height);
   for (tile t{}; tiles_left.next(t);) {
     if (cancel && cancel->load()) throw cancelled(done, total);
     const runtime::event finished = launch(t);

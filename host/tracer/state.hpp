@@ -16,7 +16,7 @@ struct device_scene::state {
   tuning tuned;
   features used;
   bool in_images = false;
-  bool in_packets = false;  ///< trace takes FACET_PACKET rays a work-item
+  bool in_packets = false;  ///< a work-item takes FACET_PACKET rays or pixels
   runtime::source_tree kernels;
   scene model;  ///< without its meshes: camera, lights and limits of later pictures
   std::vector<std::uint32_t> camera_media;  ///< around the camera, innermost first
@@ -30,6 +30,7 @@ struct device_scene::state {
   /// Compiles on first use, and again where a deeper picture needs a larger stack of pending rays.
   runtime::kernel trace_kernel(bool any);
   runtime::kernel render_kernel(std::uint32_t max_depth);
+  const char* render_file() const;
   runtime::kernel probe_kernel(const char* name);
 
   /// Sets a kernel's first arguments, those of every traversal (cl/trace.cl, cl/render.cl).

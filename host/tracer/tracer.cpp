@@ -10,8 +10,6 @@
 namespace facet::tracer {
 namespace {
 
-constexpr const char* render_file = "render.cl";
-
 /// A scene's camera, surroundings and lights: what later pictures need of it.
 scene without_meshes(const scene& s) {
   scene shell;
@@ -50,14 +48,13 @@ bool is_wide(const options& o, bool in_images, const tuning& t) {
          (o.layout == layout_kind::automatic && t.wide_layout && !in_images);
 }
 
-bool is_in_packets(const options& o, bool is_wide, const features& used, const tuning& t) {
-  const bool can_be = is_wide && o.tree != tree_kind::none && !used.instances;
+bool is_in_packets(const options& o, bool is_wide, const tuning& t) {
+  const bool can_be = is_wide && o.tree != tree_kind::none;
   if (o.packets == packet_kind::on && !can_be)
-    throw runtime::exception(
-        runtime::errc::invalid,
-        "packets of rays were asked for, which take the wide layout, a tree, and "
-        "a scene of one mesh in its own place, compiled without what it does not "
-        "need; use --packets auto, or off");
+    throw runtime::exception(runtime::errc::invalid,
+                             "packets of rays were asked for, which take the wide layout and a "
+                             "tree; use --packets auto, "
+                             "or off");
   return can_be &&
          (o.packets == packet_kind::on || (o.packets == packet_kind::automatic && t.packets));
 }
@@ -89,7 +86,7 @@ device_scene::device_scene(runtime::queue queue, const scene& s, options o,
   const bool in_images = o.geometry == geometry_kind::image ||
                          (o.geometry == geometry_kind::automatic && tuned.image_geometry);
   const bool wide = is_wide(o, in_images, tuned);
-  const bool in_packets = is_in_packets(o, wide, used, tuned);
+  const bool in_packets = is_in_packets(o, wide, tuned);
   runtime::source_tree kernels =
       o.kernel_folder.empty() ? kernel_sources() : runtime::read_folder(o.kernel_folder);
   for (const kernel_edit& e : o.edits) apply(e, kernels);
@@ -125,7 +122,7 @@ void device_scene::leave_work_group_to_driver() { state_->chosen.driver_group = 
 kernel_description device_scene::describe_render(std::uint32_t max_depth) {
   state& s = *state_;
   const runtime::kernel kernel = s.render_kernel(max_depth);
-  return {runtime::expand(s.kernels, render_file), s.render_program->options(),
+  return {runtime::expand(s.kernels, s.render_file()), s.render_program->options(),
           kernel.work_group_size(s.queue.get_device())};
 }
 
@@ -141,12 +138,16 @@ runtime::kernel device_scene::state::trace_kernel(bool any) {
 runtime::kernel device_scene::state::render_kernel(std::uint32_t max_depth) {
   if (!render_program || render_stack < max_depth) {
     render_program =
-        compiled(queue, kernels, render_file,
+        compiled(queue, kernels, render_file(),
                  traversal_options(used, model.nesting, chosen.tree, in_images, geometry.is_wide,
                                    geometry.stack, max_depth, tuned));
     render_stack = max_depth;
   }
   return render_program->get_kernel("render");
+}
+
+const char* device_scene::state::render_file() const {
+  return in_packets ? "render_packets.cl" : "render.cl";
 }
 
 runtime::kernel device_scene::state::probe_kernel(const char* name) {

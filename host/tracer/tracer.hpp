@@ -26,12 +26,11 @@ enum class geometry_kind { automatic, buffer, image };
 /// GPUs, or eight of both at a time, for CPUs. Hits are the same. Images are for `narrow`.
 enum class layout_kind { automatic, narrow, wide };
 
-/// A change of the kernels' text: `from`, which must stand in `file` exactly once, becomes `to`.
-/// Whether a work-item of `trace` takes FACET_PACKET rays (cl/layout.h), together where they stay
-/// close, or one. It can in the wide layout, with a tree, where a scene has one mesh in its own
-/// place.
+/// Whether a work-item takes FACET_PACKET rays or pixels (cl/layout.h), their rays together where
+/// they stay close, or one. It can in the wide layout, with a tree.
 enum class packet_kind { automatic, on, off };
 
+/// A change of the kernels' text: `from`, which must stand in `file` exactly once, becomes `to`.
 struct kernel_edit {
   std::string file, from, to;
 };
@@ -114,7 +113,7 @@ struct statistics {
   std::uint32_t tiles = 0;
   std::string geometry;                ///< "image" or "buffer", as chosen
   std::string layout;                  ///< "wide" or "narrow", as chosen
-  std::uint32_t rays_a_work_item = 1;  ///< of trace
+  std::uint32_t rays_a_work_item = 1;  ///< or pixels
   std::string features;                ///< what the kernel was compiled with, comma-separated
   std::uint32_t tree_depth = 0;
   std::uint64_t tree_nodes = 0;

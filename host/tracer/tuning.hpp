@@ -11,7 +11,7 @@ namespace facet::tracer {
 
 struct tuning {
   std::uint32_t group = 64;        ///< work-items a group of one-dimensional kernels
-  std::uint32_t packet_group = 4;  ///< of those that trace packets
+  std::uint32_t packet_group = 4;  ///< of those whose work-items take packets
   std::uint32_t render_group_width = 8,
                 render_group_height = 8;  ///< the render kernel's work-group
   std::uint32_t leaf_sure = 2;    ///< triangles: a subtree of at most so many is a leaf, ...

@@ -68,10 +68,9 @@ for ((set = 0; set < 1 << ${#derived[@]}; ++set)); do
   is_outer "$set" ${#derived[@]} || as=check
   for target in spir64-unknown-unknown x86_64-unknown-linux-gnu; do
     [[ $as == code || $target == spir64* ]] || continue
-    for kernel in render.cl trace.cl probe.cl "trace.cl -DFACET_TREE_NONE"; do
+    for kernel in render.cl render_packets.cl trace.cl trace_packets.cl probe.cl "trace.cl -DFACET_TREE_NONE"; do
       echo "$target $as $kernel$options"
     done
-    [[ $options != *FACET_NO_INSTANCES* ]] || echo "$target $as trace_packets.cl$options"
   done
 done >> "$jobs"
 # By warps, where PTX can be written: instructions of sm_70.

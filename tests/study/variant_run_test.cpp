@@ -126,6 +126,7 @@ TEST_CASE("a hole in the kernel shows as errors, in hits and in the picture") {
   listed_variant& holes = list.emplace_back(list[0]);
   holes.name = "holes", holes.is_exact = false;
   // Every fourth triangle is never met.
+  holes.options.packets = tracer::packet_kind::off;
   holes.options.edits = {{"query.h", "  q->t = t;",
                           "  if (s->infos[slot].triangle % 4u == 3u) return false;\n  q->t = t;"}};
   scene s = mirror();
@@ -145,6 +146,7 @@ TEST_CASE("a variant that promises the strict one's bits and breaks it is told o
   auto list = some(0, {"strict"});
   listed_variant& other = list.emplace_back(list[0]);
   other.name = "other";
+  other.options.packets = tracer::packet_kind::off;
   other.options.edits = {{"render.cl", "= sum / (float)(n * n);",
                           "= x == 5 && y == 3 ? sum * 0.5f : sum / (float)(n * n);"}};
   CHECK(measured(list).broken_promises() ==
@@ -155,6 +157,7 @@ TEST_CASE("what the device refuses says why; the others are measured") {
   auto list = some(1, {"strict", "depth-0"});
   list.insert(list.begin() + 1, list[0]);
   list[1].name = "broken";
+  list[1].options.packets = tracer::packet_kind::off;
   list[1].options.edits = {{"render.cl", "const uint n = view->samples;", "this is no C"}};
   auto r = measured(list);
   CHECK(r.complete);

@@ -104,7 +104,7 @@ TEST_CASE(
       "  const size_t i = get_global_id(0);\n"
       "  Space s;\n"
       "  TriangleHits hits;\n"
-      "  const Interval outer = {-INFINITY, INFINITY};\n"
+      "  const Intervals outer = {in_all(-INFINITY), in_all(INFINITY)};\n"
       "  met[i] = 0u;\n"
       "  if (space_of(&s, vec_global(rays[i].origin), vec_global(rays[i].direction), "
       "(float3)(4.0f))) {\n"

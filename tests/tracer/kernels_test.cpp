@@ -15,8 +15,8 @@ using namespace facet::tracer;
 
 TEST_CASE("the library holds every file of cl/, and a folder gives the same") {
   const runtime::source_tree& embedded = kernel_sources();
-  for (const char* name : {"layout.h", "trace.cl", "render.cl", "morton.cl", "radix_sort.cl",
-                           "radix_serial.cl", "levels.cl", "tree.cl"})
+  for (const char* name : {"layout.h", "trace.cl", "render.cl", "render_packets.cl", "morton.cl",
+                           "radix_sort.cl", "radix_serial.cl", "levels.cl", "tree.cl"})
     CHECK(embedded.files.count(name) == 1);
   const auto folder = std::filesystem::temp_directory_path() / "facet_kernels_test";
   std::filesystem::create_directories(folder);
@@ -33,6 +33,7 @@ TEST_CASE("the library holds every file of cl/, and a folder gives the same") {
   }
   options o;
   o.kernel_folder = folder.string();
+  o.packets = packet_kind::off;
   device_scene edited(test::queue(), test::one_mesh(generate("box", {})), o);
   CHECK(edited.render(4, 4, 1).rgba == std::vector<float>(64, 0.5f));
   std::filesystem::remove_all(folder);

@@ -83,7 +83,7 @@ TEST_CASE("packets: rays that stay close give the reference's bits, and do go to
     CHECK(differing_from_reference(s, rays, portable) == 0);
     // Were no packet ever searched, nothing above would have shown anything.
     options lost = in_packets();
-    lost.edits = {{"trace_packets.cl", "search_packet(s, positions, &beam, mode, part);", ""}};
+    lost.edits = {{"trace_packets.cl", "search_packet(s, positions, &world, mode, part);", ""}};
     const std::size_t met = hits_of(s, rays, in_packets());
     CHECK(met > rays.size() / 2);
     CHECK(hits_of(s, rays, lost) < met / 2);
@@ -101,6 +101,36 @@ TEST_CASE("packets: rays that stay close give the reference's bits, and do go to
                          {"beam.h", "most_of(far) + slack", "far.s0"}};
     CHECK(differing_from_reference(s, rays, narrow_beam) > 0);
   }
+}
+
+TEST_CASE("packets: through instances, too, turned, stretched, mirrored, tiny and huge") {
+  const scene s = test::many_instances();
+  // Its triangles in the world, to aim at.
+  mesh all;
+  for (const instance& i : s.instances) {
+    const mesh& m = s.meshes[i.mesh];
+    for (std::uint32_t t = 0; t < m.triangle_count(); t += 20)
+      for (int k = 0; k < 3; ++k) {
+        all.positions.push_back(vec3f(i.world_from_object.point(vec3d(m.position(t, k)))));
+        all.indices.push_back(std::uint32_t(all.indices.size()));
+      }
+  }
+  const auto rays = close_rays(all, 600, 3);
+  CHECK(differing_from_reference(s, rays, in_packets()) == 0);
+  // Packets do enter instances, not only rays by themselves: hits are lost where none of them does.
+  const std::size_t met = hits_of(s, rays, in_packets());
+  CHECK(met > rays.size() / 2);
+  options outside = in_packets();
+  outside.edits = {{"packet.h",
+                    "inner->outer[k] = box_intervals(&world->rays[k], vec_global(i->lo), "
+                    "vec_global(i->hi));",
+                    "inner->outer[k].near = in_all(1.0f), inner->outer[k].far = in_all(0.0f);"}};
+  CHECK(hits_of(s, rays, outside) < met / 2);
+  // An instance's beam is not the world's.
+  options one_beam = in_packets();
+  one_beam.edits = {
+      {"search_packet.h", "space = &inner;", "inner.beam = world->beam, space = &inner;"}};
+  CHECK(differing_from_reference(s, rays, one_beam) > 0);
 }
 
 TEST_CASE("packets: one ray that does not go with the others sends all of them alone") {
@@ -170,8 +200,9 @@ TEST_CASE("packets: asked for where they cannot be, they are refused; statistics
   options narrow = in_packets();
   narrow.layout = tracer::layout_kind::narrow;
   CHECK_THROWS_AS(device_scene(test::queue(), box, narrow), runtime::exception);
-  CHECK_THROWS_AS(device_scene(test::queue(), test::many_instances(), in_packets()),
-                  runtime::exception);
+  options without_tree = in_packets();
+  without_tree.tree = tracer::tree_kind::none;
+  CHECK_THROWS_AS(device_scene(test::queue(), box, without_tree), runtime::exception);
   CHECK(device_scene(test::queue(), box, in_packets()).prepared().rays_a_work_item == packet);
   options off = in_packets();
   off.packets = packet_kind::off;

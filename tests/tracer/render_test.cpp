@@ -33,7 +33,7 @@ bool same_bits(const picture& a, const picture& b) {
 TEST_CASE("trees, geometry, work-groups, tiles and feature sets all give the same picture") {
   const scene s = test::every_feature();
   const picture expected = render(s);
-  std::vector<options> ways(12);
+  std::vector<options> ways(15);
   ways[0].tree = tree_kind::none;
   ways[1].geometry = geometry_kind::image;
   ways[2].all_features = true;
@@ -44,6 +44,9 @@ TEST_CASE("trees, geometry, work-groups, tiles and feature sets all give the sam
   ways[9].tile_width = 1000, ways[9].tile_height = 1;
   ways[10].tree = tree_kind::none, ways[10].geometry = geometry_kind::image;
   ways[11].geometry = geometry_kind::image, ways[11].all_features = true;
+  ways[12].layout = tracer::layout_kind::narrow;
+  ways[13].layout = tracer::layout_kind::wide, ways[13].packets = tracer::packet_kind::off;
+  ways[14].layout = tracer::layout_kind::wide, ways[14].packets = tracer::packet_kind::on;
   for (std::size_t k = 0; k < ways.size(); ++k) {
     CAPTURE(k);
     CHECK(same_bits(render(s, ways[k]), expected));

@@ -59,9 +59,10 @@ mistake unchecked_direction() {
 }
 
 mistake no_tie_break() {
-  return of("no-tie-break", "of equal distances the first one met wins",
-            {{"query.h", "!is_before(s, place, slot, q->place, q->slot)", "true"},
-             {"search_packet.h", " || is_before(s, 0u, slot, 0u, slots[lane]) ?", " ?"}});
+  return of(
+      "no-tie-break", "of equal distances the first one met wins",
+      {{"query.h", "!is_before(s, place, slot, q->place, q->slot)", "true"},
+       {"search_packet.h", " || is_before(s, place, slot, place_in_lane(p, lane), best) ?", " ?"}});
 }
 
 mistake truncated_nodes() {
@@ -117,8 +118,8 @@ mistake unchecked_refraction() {
 
 mistake reversed_media() {
   return of("reversed-media", "entering a medium counts as leaving it",
-            {{"query.h", "is_front ? q->t_end - t : -(q->t_end - t)",
-              "is_front ? -(q->t_end - t) : q->t_end - t"}});
+            {{"query.h", "is_front ? t_end - t : -(t_end - t)",
+              "is_front ? -(t_end - t) : t_end - t"}});
 }
 
 mistake unchecked_normals() {

@@ -29,7 +29,7 @@ layout_kind other_layout(const lab& l) {
 }
 
 /// Trees, how and where geometry lies, three work-groups, features left out or not.
-std::vector<way> ways(const lab& l, bool is_one_mesh, bool with_brute_force) {
+std::vector<way> ways(const lab& l, bool with_brute_force) {
   std::vector<way> all;
   const auto add = [&](std::string name, tree_kind tree, geometry_kind geometry, std::uint32_t w,
                        std::uint32_t h, bool every_feature) {
@@ -41,14 +41,12 @@ std::vector<way> ways(const lab& l, bool is_one_mesh, bool with_brute_force) {
     o.all_features = every_feature;
     all.push_back({std::move(name), std::move(o)});
   };
-  if (is_one_mesh) {
-    add("binned, buffer, packets", tree_kind::binned, geometry_kind::buffer, 0, 0, false);
-    all.back().options.layout = layout_kind::wide;
-    all.back().options.packets = tracer::packet_kind::on;
-    all.back().options.compiler_flags +=
-        " -DFACET_PACKET_WIDTH=1e30f";  // however far apart they start
-    all.back().in_packets = true;
-  }
+  add("binned, buffer, packets", tree_kind::binned, geometry_kind::buffer, 0, 0, false);
+  all.back().options.layout = layout_kind::wide;
+  all.back().options.packets = tracer::packet_kind::on;
+  all.back().options.compiler_flags +=
+      " -DFACET_PACKET_WIDTH=1e30f";  // however far apart they start
+  all.back().in_packets = true;
   for (const tree_kind tree : {tree_kind::binned, tree_kind::levels}) {
     const std::string name = tracer::word_of(tree);
     add(name + ", buffer, 64", tree, geometry_kind::buffer, 0, 0, false);
@@ -173,7 +171,7 @@ void compare_ways(lab& l, const char* name, const scene& s, std::uint64_t count,
     std::vector<std::uint64_t> different{};
   };
   std::vector<entry> all;
-  for (const way& w : ways(l, s.instances.size() == 1, with_brute_force))
+  for (const way& w : ways(l, with_brute_force))
     all.push_back({std::string(name) + ": " + w.name, l.place(s, w.options), w.in_packets});
 
   in_batches(l, count, [&](std::uint64_t first, std::uint64_t size) {
