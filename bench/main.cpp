@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
   facet::bench::add_trace_row(app);
   facet::bench::add_build_row(app);
   facet::bench::add_pictures_row(app);
+  facet::bench::add_render_row(app);
   facet::bench::add_exactness_row(app);
   facet::bench::add_growth_row(app);
   facet::bench::add_sort_row(app);

@@ -32,6 +32,7 @@ SECTIONS = {
     "facet-bench-build": (1, "building", "Building trees, beside a peer", report_benches.build),
     "facet-trees": (1, "trees", "How good trees are", report_benches.trees),
     "facet-bench-pictures": (1, "whole-pictures", "Whole pictures", report_benches.pictures),
+    "facet-bench-render": (1, "pictures-by-way", "Whole pictures, by several ways", report_benches.render),
     "facet-bench-sort": (1, "sorting", "Sorting, beside peers", report_benches.sort),
     "facet-bench-fold": (1, "folding", "Folding", report_benches.fold),
     "facet-bench-reference": (1, "reference", "The serial reference, beside a peer",

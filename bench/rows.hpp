@@ -20,6 +20,9 @@ void add_exactness_row(CLI::App& app);
 /// Whole pictures of a device against the serial reference in float and double.
 void add_pictures_row(CLI::App& app);
 
+/// Whole pictures on a device, by several ways, rays counted by kind.
+void add_render_row(CLI::App& app);
+
 /// Time against triangles, with a tree, without one, and by the serial reference.
 void add_growth_row(CLI::App& app);
 

@@ -6,6 +6,7 @@
 
 #include "study/fingerprint.hpp"
 #include "study/forecast.hpp"
+#include "study/picture_rays.hpp"
 #include "tracer/stopwatch.hpp"
 
 namespace facet::study {
@@ -16,11 +17,6 @@ using tracer::milliseconds_since;
 
 /// Thrown inside, once `cancel` became true.
 struct stopped {};
-
-/// Counts every ray that a picture traces where the kernels count what media could not hold.
-const tracer::kernel_edit count_rays{"traverse.h", "  Query q;\n  q.t = tmax;",
-                                     "  atomic_inc(&s->faults->crowded);\n  Query q;\n"
-                                     "  q.t = tmax;"};
 
 /// The variants under way, their scenes on the device among them.
 class run {
@@ -151,15 +147,13 @@ class run {
   std::uint64_t rays_of_picture(const variant_result& v, const tracer::statistics& plain) {
     const variant_result& strict = result_.variants[0];
     if (&v != &strict && !v.of.is_shading_only) return strict.rays;
-    tracer::options counted = options_for(v.of);
-    counted.packets = tracer::packet_kind::off;   // where each ray begins a search
+    const tracer::options counted = options_for(v.of);
     const bool is_plain = counted.edits.empty();  // strict kernels, of any depth
-    counted.edits.push_back(count_rays);
-    if (!is_plain || !counting_) counting_.emplace(queue_, scene_, counted);
+    if (!is_plain || !counting_) counting_.emplace(queue_, scene_, counting_rays(counted));
     tracer::statistics stats;
     render(*counting_, v.of.max_depth, stats);
     if (!is_plain) counting_.reset();
-    return stats.crowded - plain.crowded;
+    return rays_of(stats, plain).total();
   }
 
   void measure(std::uint32_t which) {

@@ -1,0 +1,184 @@
+// Row `render`: whole pictures on a device, in one launch each, by several ways that take turns;
+// rays counted by kind.
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "bench/result_file.hpp"
+#include "bench/rows.hpp"
+#include "bench/still_life.hpp"
+#include "runtime/runtime.hpp"
+#include "scene/load.hpp"
+#include "scene/read_obj.hpp"
+#include "study/picture_errors.hpp"
+#include "study/picture_rays.hpp"
+#include "study/statistics.hpp"
+#include "tracer/tracer.hpp"
+
+namespace facet::bench {
+namespace {
+
+using json = nlohmann::ordered_json;
+
+struct settings {
+  std::vector<std::string> scenes, meshes;
+  std::vector<std::string> ways{"default", "single", "all-features"};
+  std::string device = "0", kernels, json;
+  std::uint32_t width = 0;
+  int depth = -1, repeat = 5;
+};
+
+/// A way to make a picture, and its times.
+struct way {
+  std::string name;
+  tracer::options options;
+  std::unique_ptr<tracer::device_scene> on{};
+  tracer::statistics stats{};
+  std::vector<double> kernel_ms{}, wall_ms{};
+  std::size_t differs = 0;  ///< pixels that are not the first way's
+};
+
+way way_of(const std::string& name, const settings& o) {
+  way w{name, {}};
+  w.options.kernel_folder = o.kernels;
+  if (name == "single") w.options.packets = tracer::packet_kind::off;
+  if (name == "all-features") w.options.all_features = true;
+  if (name == "narrow") w.options.layout = tracer::layout_kind::narrow;
+  if (name == "image") w.options.geometry = tracer::geometry_kind::image;
+  return w;
+}
+
+struct shape {
+  std::uint32_t width, height, depth;
+};
+
+shape shape_of(const scene& s, const settings& o) {
+  const std::uint32_t width = o.width ? o.width : s.width;
+  return {width, std::uint32_t(std::max(1.0, double(width) * s.height / s.width + 0.5)),
+          o.depth < 0 ? s.max_depth : std::uint32_t(o.depth)};
+}
+
+json spread(const std::vector<double>& ms) {
+  const study::summary t = study::summarize(ms);
+  return {{"median", t.median}, {"least", t.least}, {"most", t.most}, {"all", ms}};
+}
+
+json figures_of(const way& w, const std::string& name, const scene& s, shape p,
+                const study::picture_rays& rays) {
+  const study::summary kernel = study::summarize(w.kernel_ms), wall = study::summarize(w.wall_ms);
+  std::printf("%-22s %5ux%-5u %-13s %9.2f (%.2f-%.2f)  %9.2f  %8.1f  %7.0f  %zu\n", name.c_str(),
+              p.width, p.height, w.name.c_str(), kernel.median, kernel.least, kernel.most,
+              wall.median, double(rays.total()) / kernel.median * 1e-3, w.stats.compile_ms,
+              w.differs);
+  return {{"scene", name},
+          {"way", w.name},
+          {"width", p.width},
+          {"height", p.height},
+          {"samples", s.samples},
+          {"max_depth", p.depth},
+          {"triangles", s.triangle_count()},
+          {"features", w.stats.features},
+          {"layout", w.stats.layout},
+          {"geometry", w.stats.geometry},
+          {"pixels_a_work_item", w.stats.rays_a_work_item},
+          {"rays", {{"eye", rays.eye}, {"bounced", rays.bounced}, {"shadow", rays.shadow}}},
+          {"kernel_ms", spread(w.kernel_ms)},
+          {"wall_ms", spread(w.wall_ms)},
+          {"mrays_per_s", double(rays.total()) / kernel.median * 1e-3},
+          {"build_ms", w.stats.build_ms},
+          {"compile_ms", w.stats.compile_ms},
+          {"pixels_that_differ", w.differs}};
+}
+
+/// Appends the figures of every way; true if all pictures are the same.
+bool measure(const scene& s, const std::string& name, runtime::queue& queue, const settings& o,
+             json& results) {
+  const shape p = shape_of(s, o);
+  const auto render = [&](tracer::device_scene& on, tracer::statistics& stats) {
+    return on.render(p.width, p.height, p.depth, &stats);
+  };
+  std::vector<way> ways;
+  picture first;
+  for (const std::string& each : o.ways) {
+    way w = way_of(each, o);
+    w.options.tile_width = p.width, w.options.tile_height = p.height;
+    w.on = std::make_unique<tracer::device_scene>(queue, s, w.options);
+    const picture found = render(*w.on, w.stats);
+    if (ways.empty()) first = found;
+    w.differs = study::differing_pixels(first, found);
+    ways.push_back(std::move(w));
+  }
+  tracer::device_scene counting(queue, s, study::counting_rays(ways[0].options));
+  tracer::statistics counted;
+  render(counting, counted);
+  const study::picture_rays rays = study::rays_of(counted, ways[0].stats);
+
+  for (int k = 0; k < o.repeat; ++k)
+    for (way& w : ways) {
+      render(*w.on, w.stats);
+      w.kernel_ms.push_back(w.stats.kernel_ms.at(0));
+      w.wall_ms.push_back(w.stats.wall_ms);
+    }
+  bool are_same = true;
+  for (const way& w : ways) {
+    results.push_back(figures_of(w, name, s, p, rays));
+    are_same = are_same && w.differs == 0;
+  }
+  std::printf("%-22s rays: %llu eye, %llu bounced, %llu shadow\n", name.c_str(),
+              static_cast<unsigned long long>(rays.eye),
+              static_cast<unsigned long long>(rays.bounced),
+              static_cast<unsigned long long>(rays.shadow));
+  std::fflush(stdout);
+  return are_same;
+}
+
+void run(const settings& o) {
+  if (o.scenes.empty() && o.meshes.empty())
+    throw CLI::ValidationError("render", "nothing to render; name scene files, or OBJ files with --mesh");
+  const runtime::device device = runtime::select_device(o.device);
+  runtime::queue queue(device);
+  json report = head_of("facet-bench-render", study::origin_now(device));
+  report["settings"] = {{"repeats", o.repeat}};
+  report["results"] = json::array();
+  std::printf(
+      "way; milliseconds: kernel, median (least-most); wall, median; Mrays/s of all kinds; "
+      "compiled "
+      "in milliseconds; pixels that are not the first way's\n");
+  bool are_same = true;
+  const auto name_of = [](const std::string& path) {
+    return path.substr(path.find_last_of('/') + 1);
+  };
+  for (const std::string& path : o.scenes)
+    are_same &= measure(load_scene(path), name_of(path), queue, o, report["results"]);
+  for (const std::string& path : o.meshes)
+    are_same &= measure(still_life(read_obj(path).mesh), "still life: " + name_of(path), queue, o,
+                        report["results"]);
+  if (!o.json.empty()) write_result(o.json, report);
+  if (!are_same) throw std::runtime_error("ways to make one picture differ: see above");
+}
+
+}  // namespace
+
+void add_render_row(CLI::App& app) {
+  auto o = std::make_shared<settings>();
+  CLI::App* row = app.add_subcommand("render", "Whole pictures: several ways, rays by kind");
+  row->add_option("scenes", o->scenes, "scene files")->check(CLI::ExistingFile);
+  row->add_option("--mesh", o->meshes,
+                  "OBJ files, each between a glass and a mirror sphere on a reflecting floor")
+      ->check(CLI::ExistingFile);
+  row->add_option("--way", o->ways,
+                  "single: one pixel a work-item; all-features: nothing left out of the kernel")
+      ->check(CLI::IsMember({"default", "single", "all-features", "narrow", "image"}))
+      ->capture_default_str();
+  row->add_option("--device", o->device, "index, or part of a name")->capture_default_str();
+  row->add_option("--kernels", o->kernels, "read cl/ from this folder");
+  row->add_option("--width", o->width, "pixels; 0: the scene's own")->capture_default_str();
+  row->add_option("--depth", o->depth, "bounces; -1: the scene's own")->capture_default_str();
+  row->add_option("--repeat", o->repeat, "pictures by each way, taking turns")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  row->add_option("--json", o->json, "write the figures to this file");
+  row->callback([o] { run(*o); });
+}
+
+}  // namespace facet::bench
