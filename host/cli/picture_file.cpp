@@ -11,8 +11,7 @@
 #include "scene/error.hpp"
 
 #ifdef FACET_OPENIMAGEIO
-#include "image/read.hpp"
-#include "image/write.hpp"
+#include "cli/picture_module.hpp"
 #endif
 
 namespace facet::cli {
@@ -50,14 +49,33 @@ void check_picture_output(const fs::path& path) {
                       (extension.empty() ? "no extension" : "the extension \"" + extension + "\"") +
                       "; " + allowed);
   }
+#ifdef FACET_OPENIMAGEIO
+  try {
+    if (extension != ".npy") check_picture_module();
+  } catch (const module_error& e) {
+    throw image::output_error(path, e.what());
+  }
+#endif
   image::check_output(path);
+}
+
+void prepare_to_write(const fs::path& path) {
+#ifdef FACET_OPENIMAGEIO
+  if (extension_of(path) != ".npy") load_picture_files_soon();
+#else
+  static_cast<void>(path);
+#endif
 }
 
 void write_picture_file(const fs::path& path, const picture& p, image::transfer curve) {
   image::refuse_nan(p);
   if (extension_of(path) == ".npy") return image::write_npy(path, p);
 #ifdef FACET_OPENIMAGEIO
-  image::write_picture(path, p, curve);
+  try {
+    picture_files().write(path, p, curve);
+  } catch (const module_error& e) {
+    throw image::output_error(path, e.what());
+  }
 #else
   static_cast<void>(curve);
   throw usage_error(path.string() + ": " + allowed);
@@ -67,7 +85,11 @@ void write_picture_file(const fs::path& path, const picture& p, image::transfer 
 picture read_picture_file(const fs::path& path, std::optional<image::transfer> curve) {
   if (extension_of(path) == ".npy") return image::read_npy_picture(path);
 #ifdef FACET_OPENIMAGEIO
-  return image::read_picture(path, curve);
+  try {
+    return picture_files().read(path, curve);
+  } catch (const module_error& e) {
+    throw scene_error(path.string(), "", e.what());
+  }
 #else
   static_cast<void>(curve);
   throw scene_error(path.string(), "", allowed);

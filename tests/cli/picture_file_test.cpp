@@ -111,3 +111,29 @@ TEST_CASE("PNG, EXR and .npy of one render hold the same picture") {
   CHECK(contains(compared("a.png"), "displayed (sRGB)   0 pixels"));
   CHECK(contains(compared("linear.png"), "linear             0 pixels"));
 }
+
+TEST_CASE(
+    "without its part for picture files the program says so before any work, and writes .npy") {
+  if (!writes_png()) return;
+  const temporary_folder folder;
+  surroundings alone = without_devices();
+  alone.program = (folder / "facet").string();
+  fs::copy_file(FACET_PROGRAM, alone.program);
+  put(folder / "s.json", small_scene());
+  const auto render_alone = [&](const char* name) {
+    return run({"render", (folder / "s.json").string(), "-o", (folder / name).string(), "--device",
+                "serial", "--width", "12"},
+               alone);
+  };
+  const outcome o = render_alone("a.png");
+  CHECK(o.code == 6);
+  CHECK(contains(o.err, (folder / "facet_pictures.so").string()));
+  CHECK(contains(o.err, "install facet again"));
+  CHECK(render_alone("a.npy").code == 0);
+  CHECK(folder.names() == std::vector<std::string>{"a.npy", "facet", "s.json"});
+  // One that is there, but is none.
+  put(folder / "facet_pictures.so", "no module");
+  const outcome damaged = render_alone("a.png");
+  CHECK(damaged.code == 6);
+  CHECK(contains(damaged.err, "cannot be loaded"));
+}

@@ -54,7 +54,7 @@ program::program(const std::vector<std::string>& arguments, const surroundings& 
   else
     REQUIRE(::pipe2(channel, O_CLOEXEC) == 0);
 
-  std::vector<std::string> words{FACET_PROGRAM};
+  std::vector<std::string> words{s.program};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<std::string> variables = environment_with(s.environment);
   const std::vector<char*> argv = pointers(words), envp = pointers(variables);
@@ -70,7 +70,7 @@ program::program(const std::vector<std::string>& arguments, const surroundings& 
       const rlimit limit{s.address_space, s.address_space};
       ::setrlimit(RLIMIT_AS, &limit);
     }
-    ::execve(FACET_PROGRAM, argv.data(), envp.data());
+    ::execve(s.program.c_str(), argv.data(), envp.data());
     ::_exit(127);
   }
   ::close(out);

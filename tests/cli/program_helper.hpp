@@ -17,6 +17,7 @@ struct surroundings {
   std::uint64_t address_space = 0;
   /// stderr is a terminal; its text is in `err` all the same.
   bool terminal = false;
+  std::string program = FACET_PROGRAM;
 };
 
 struct outcome {

@@ -12,3 +12,8 @@ run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/build -DCMAKE_PREFIX_PATH=${WORK}/p
     -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_BUILD_TYPE=Release -G ${GENERATOR})
 run(${CMAKE_COMMAND} --build ${WORK}/build)
 run(${WORK}/build/consumer)
+# The program where it is installed finds its part for picture files, if it has one.
+if(EXISTS ${BUILD}/facet_pictures.so)
+  file(WRITE ${WORK}/box.json [=[{"meshes": {"box": {"generate": "box"}}, "instances": [{"mesh": "box"}]}]=])
+  run(${WORK}/prefix/bin/facet render ${WORK}/box.json --device serial --width 16 -o ${WORK}/box.png)
+endif()
