@@ -23,7 +23,8 @@ using json = nlohmann::ordered_json;
 struct settings {
   std::vector<std::string> scenes, meshes;
   std::vector<std::string> ways{"default", "single", "all-features"};
-  std::string device = "0", kernels, json;
+  std::string device = "0", kernels, flags, json;
+  std::uint32_t group_width = 0, group_height = 0;
   std::uint32_t width = 0;
   int depth = -1, repeat = 5;
 };
@@ -41,7 +42,13 @@ struct way {
 way way_of(const std::string& name, const settings& o) {
   way w{name, {}};
   w.options.kernel_folder = o.kernels;
-  if (name == "single") w.options.packets = tracer::packet_kind::off;
+  w.options.compiler_flags = o.flags.empty() ? "" : " " + o.flags;
+  w.options.group_width = o.group_width, w.options.group_height = o.group_height;
+  if (name == "single") {
+    w.options.packets = tracer::packet_kind::off;
+    w.options.split = tracer::split_kind::off;
+  }
+  if (name == "split") w.options.split = tracer::split_kind::on;
   if (name == "all-features") w.options.all_features = true;
   if (name == "narrow") w.options.layout = tracer::layout_kind::narrow;
   if (name == "image") w.options.geometry = tracer::geometry_kind::image;
@@ -81,6 +88,7 @@ json figures_of(const way& w, const std::string& name, const scene& s, shape p,
           {"layout", w.stats.layout},
           {"geometry", w.stats.geometry},
           {"pixels_a_work_item", w.stats.rays_a_work_item},
+          {"split", w.stats.is_split},
           {"rays", {{"eye", rays.eye}, {"bounced", rays.bounced}, {"shadow", rays.shadow}}},
           {"kernel_ms", spread(w.kernel_ms)},
           {"wall_ms", spread(w.wall_ms)},
@@ -134,11 +142,13 @@ bool measure(const scene& s, const std::string& name, runtime::queue& queue, con
 
 void run(const settings& o) {
   if (o.scenes.empty() && o.meshes.empty())
-    throw CLI::ValidationError("render", "nothing to render; name scene files, or OBJ files with --mesh");
+    throw CLI::ValidationError("render",
+                               "nothing to render; name scene files, or OBJ files with --mesh");
   const runtime::device device = runtime::select_device(o.device);
   runtime::queue queue(device);
   json report = head_of("facet-bench-render", study::origin_now(device));
-  report["settings"] = {{"repeats", o.repeat}};
+  report["settings"] = {
+      {"repeats", o.repeat}, {"flags", o.flags}, {"work_group", {o.group_width, o.group_height}}};
   report["results"] = json::array();
   std::printf(
       "way; milliseconds: kernel, median (least-most); wall, median; Mrays/s of all kinds; "
@@ -167,11 +177,16 @@ void add_render_row(CLI::App& app) {
                   "OBJ files, each between a glass and a mirror sphere on a reflecting floor")
       ->check(CLI::ExistingFile);
   row->add_option("--way", o->ways,
-                  "single: one pixel a work-item; all-features: nothing left out of the kernel")
-      ->check(CLI::IsMember({"default", "single", "all-features", "narrow", "image"}))
+                  "single: one kernel, a pixel a work-item; split: launches by depth; "
+                  "all-features: nothing\n"
+                  "left out of the kernel")
+      ->check(CLI::IsMember({"default", "single", "split", "all-features", "narrow", "image"}))
       ->capture_default_str();
   row->add_option("--device", o->device, "index, or part of a name")->capture_default_str();
   row->add_option("--kernels", o->kernels, "read cl/ from this folder");
+  row->add_option("--flags", o->flags, "added to the compiler's options");
+  row->add_option("--group-width", o->group_width, "work-items; 0: the device's default");
+  row->add_option("--group-height", o->group_height, "work-items; 0: the device's default");
   row->add_option("--width", o->width, "pixels; 0: the scene's own")->capture_default_str();
   row->add_option("--depth", o->depth, "bounces; -1: the scene's own")->capture_default_str();
   row->add_option("--repeat", o->repeat, "pictures by each way, taking turns")

@@ -140,6 +140,14 @@ struct FACET_ALIGNED Hit {
   uint triangle;
 };
 
+// A ray of a picture, as its sample is summed up (ray_tree.h): its part of the light, and the rays that follow
+// it, first the one that is followed first, FACET_NONE if there is none.
+struct FACET_PAIR RayNode {
+  float light[3];
+  float alpha;  // of an eye ray: the sample's
+  uint first, second;
+};
+
 // What a kernel could not do, counted, so that the host can say it.
 struct FACET_ALIGNED Faults {
   uint refused;  // rays, or their ways through an instance, that triangle.h's space_of refused
@@ -201,6 +209,7 @@ typedef struct View View;
 typedef struct World World;
 typedef struct Ray Ray;
 typedef struct Hit Hit;
+typedef struct RayNode RayNode;
 typedef struct Faults Faults;
 typedef struct SurfacePoint SurfacePoint;
 typedef struct Passage Passage;
@@ -217,6 +226,7 @@ FACET_SIZE(View, 128)
 FACET_SIZE(World, 32)
 FACET_SIZE(Ray, 32)
 FACET_SIZE(Hit, 16)
+FACET_SIZE(RayNode, 24)
 FACET_SIZE(Faults, 16)
 FACET_SIZE(SurfacePoint, 160)
 FACET_SIZE(Passage, 32)

@@ -11,6 +11,7 @@ typedef struct {
   Path path[FACET_PACKET];
   PendingRay pending[FACET_PACKET][FACET_RAY_STACK];
   Surface surface[FACET_PACKET];
+  float3 lit[FACET_PACKET];  // what that surface sends
 } Paths;
 
 static inline void trace_paths(const Scene* s, GEOMETRY positions, const Paths* p, uint which, Query* found) {
@@ -38,15 +39,11 @@ static inline void light_paths(const Scene* s, GEOMETRY positions, __global cons
     put_ray(&rays, i, way->start, way->direction, way->distance, end_of(way));
   }
   trace_together(s, positions, &rays, FACET_SHADOWS, found);
-  for (; which != 0u; which = without_first(which)) {
-    const uint i = first_lane(which);
+  for (uint left = rays.which; left != 0u; left = without_first(left)) {
+    const uint i = first_lane(left);
     const Surface* f = &p->surface[i];
-    Path* path = &p->path[i];
-    float3 lit = (float3)(0.0f);
-    if (rays.which >> i & 1u)
-      lit = lit_by(light, &to[i], f, &s->materials[f->material], path->ray.direction,
-                   transmittance(s, &to[i].way, found[i]));
-    path->sum = path->sum + path->ray.throughput * lit;
+    p->lit[i] = p->lit[i] + lit_by(light, &to[i], f, &s->materials[f->material], p->path[i].ray.direction,
+                                   transmittance(s, &to[i].way, found[i]));
   }
 }
 
@@ -62,7 +59,8 @@ static inline void follow_paths(const Scene* s, GEOMETRY positions, GEOMETRY nor
       if (found[i].triangle == FACET_NONE) {
         escape(&p->path[i], view);
       } else {
-        p->surface[i] = arrive(s, positions, normals, view, &found[i], &p->path[i]);
+        p->surface[i] = arrive(s, positions, normals, &found[i], &p->path[i].ray);
+        p->lit[i] = unlit(view, &s->materials[p->surface[i].material]);
         shaded |= 1u << i;
       }
     }
@@ -73,9 +71,11 @@ static inline void follow_paths(const Scene* s, GEOMETRY positions, GEOMETRY nor
       Path* path = &p->path[i];
       const Surface* f = &p->surface[i];
       State next = RESUME;
-      if (shaded >> i & 1u)
+      if (shaded >> i & 1u) {
+        path->sum = path->sum + path->ray.throughput * p->lit[i];
         next = branch(s, f, &s->materials[f->material], &path->ray, p->pending[i], &path->count,
                       view->max_depth);
+      }
       if (next == RESUME && resume(path, p->pending[i]) == DONE) which &= ~(1u << i);
     }
   }

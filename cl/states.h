@@ -114,10 +114,9 @@ static inline void escape(Path* p, __global const View* view) {
   if (p->ray.depth == 0u) p->alpha = view->background_alpha;
 }
 
-// Takes in the way to the surface that `q` tells of, and what it sends by itself.
-static inline Surface arrive(const Scene* s, GEOMETRY positions, GEOMETRY normals,
-                             __global const View* view, const Query* q, Path* p) {
-  PendingRay* ray = &p->ray;
+// Takes in the way to the surface that `q` tells of.
+static inline Surface arrive(const Scene* s, GEOMETRY positions, GEOMETRY normals, const Query* q,
+                             PendingRay* ray) {
 #ifndef FACET_NO_TRANSPARENCY
   if (!is_empty(ray->media)) {
     const float3 depth = absorption(s, ray->media) * q->t;
@@ -125,10 +124,26 @@ static inline Surface arrive(const Scene* s, GEOMETRY positions, GEOMETRY normal
         ray->throughput * (float3)(exp_strict(-depth.x), exp_strict(-depth.y), exp_strict(-depth.z));
   }
 #endif
-  const Surface f = surface_at(s, positions, normals, q, ray->direction);
-  __global const Material* m = &s->materials[f.material];
-  p->sum = p->sum + ray->throughput * (vec_global(m->Ke) + vec_global(m->Ka) * vec_global(view->ambient));
-  return f;
+  return surface_at(s, positions, normals, q, ray->direction);
+}
+
+// What a surface sends without a light. Lights' parts are added to it, in order; the sum is dimmed by the
+// ray's throughput as it is added to the sample's.
+static inline float3 unlit(__global const View* view, __global const Material* m) {
+  return vec_global(m->Ke) + vec_global(m->Ka) * vec_global(view->ambient);
+}
+
+static inline float3 lit_by_all(const Scene* s, GEOMETRY positions, __global const Light* lights,
+                                __global const View* view, const Surface* f, __global const Material* m,
+                                const PendingRay* ray) {
+  float3 sum = unlit(view, m);
+  for (uint i = 0; i < view->light_count; ++i) {
+    Lighting to;
+    if (faces_light(s, &lights[i], f, m, ray->media, &to))
+      sum = sum + lit_by(&lights[i], &to, f, m, ray->direction,
+                         transmittance(s, &to.way, shadow_query(s, positions, &to.way)));
+  }
+  return sum;
 }
 
 static inline State resume(Path* p, const PendingRay* pending) {
@@ -156,16 +171,9 @@ static inline float4 radiance(const Scene* s, GEOMETRY positions, GEOMETRY norma
         state = RESUME;
         break;
       case SHADE: {
-        const Surface f = arrive(s, positions, normals, view, &q, &p);
+        const Surface f = arrive(s, positions, normals, &q, &p.ray);
         __global const Material* m = &s->materials[f.material];
-        for (uint i = 0; i < view->light_count; ++i) {
-          Lighting to;
-          float3 lit = (float3)(0.0f);
-          if (faces_light(s, &lights[i], &f, m, p.ray.media, &to))
-            lit = lit_by(&lights[i], &to, &f, m, p.ray.direction,
-                         transmittance(s, &to.way, shadow_query(s, positions, &to.way)));
-          p.sum = p.sum + p.ray.throughput * lit;
-        }
+        p.sum = p.sum + p.ray.throughput * lit_by_all(s, positions, lights, view, &f, m, &p.ray);
         state = branch(s, &f, m, &p.ray, pending, &p.count, view->max_depth);
         break;
       }

@@ -1,6 +1,6 @@
 // The structures that cross between host and device: the common subset of C and C++.
 //
-// Only float, uint and arrays of them; every size is a multiple of 16 bytes, or 8, and every group of four
+// Only float, uint and arrays of them; every size is a multiple of 16 bytes, or of 8, and every group of four
 // words starts at one, so that no compiler has room for an opinion. The sizes are asserted on
 // both sides and each device is asked for its own (tests/tracer/layout_test.cpp).
 #ifndef FACET_STRUCTURE_H
@@ -18,7 +18,7 @@ using uint = std::uint32_t;
 #define FACET_ALIGNED alignas(16)
 #define FACET_PAIR alignas(8)
 #define FACET_SIZE(type, bytes) \
-  static_assert(sizeof(type) == (bytes) && alignof(type) == ((bytes) == 8 ? 8 : 16));
+  static_assert(sizeof(type) == (bytes) && alignof(type) == ((bytes) % 16 == 0 ? 16 : 8));
 #endif
 
 #endif

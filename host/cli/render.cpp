@@ -133,8 +133,8 @@ void write_stats(const arguments& o, picture_shape p, const tracer::statistics& 
 
 int run(const arguments& o) {
   if (o.tracing.serial())
-    refuse_with_serial(*o.app, {"--tree", "--packets", "--geometry", "--kernels", "--all-features",
-                                "--work-group", "--tile-size"});
+    refuse_with_serial(*o.app, {"--tree", "--packets", "--split", "--geometry", "--kernels",
+                                "--all-features", "--work-group", "--tile-size"});
   check_outputs(o);
   const scene s = load_scene(o.scene);
   o.say.notes(s.notes);
@@ -184,6 +184,7 @@ command add_render(CLI::App& program) {
                "Curve of a .png (default srgb); linear is the plain x255.\n"
                ".exr and .npy are linear and not clamped");
   add_tracing(*app, o->tracing);
+  add_split(*app, o->tracing.tracer);
   add_size(*app, "--work-group", o->group, side,
            "Work-items of a group (default: by the kind of device)");
   add_size(*app, "--tile-size", o->tile, side,

@@ -124,7 +124,7 @@ passage<T> shader<T>::pass(const ray<T>& r, const media& around, road by) const 
 
 template <class T>
 void shader<T>::light_up(path& p, const lamp& l, const surface<T>& s, std::uint32_t material,
-                         const vec3<T>& d, const vec3<T>& throughput, const media& around) const {
+                         const vec3<T>& d, const media& around, vec3<T>& lit) const {
   const matter& m = matter_[material];
 
   vec3<T> towards = l.towards;
@@ -163,7 +163,7 @@ void shader<T>::light_up(path& p, const lamp& l, const surface<T>& s, std::uint3
     const T rv = dot(r, -d);
     spec = rv > 0 ? std::pow(rv, m.Ns) : 0;
   }
-  p.sum = p.sum + throughput * (((l.colour * fade) * way.colour) * (m.Kd * ndl + m.Ks * spec));
+  lit = lit + ((l.colour * fade) * way.colour) * (m.Kd * ndl + m.Ks * spec);
 }
 
 /// Adds what comes along the ray to the sum; true if the ray hits anything.
@@ -187,8 +187,9 @@ bool shader<T>::shade(path& p, const vec3<T>& o, const vec3<T>& d, vec3<T> throu
   const surface<T> s = surface_at(geometry_, h, d);
   p.note(std::uint64_t(depth) << 33 |
          std::uint64_t(around.empty() ? miss : around.innermost()) << 1 | (s.front ? 1 : 0));
-  p.sum = p.sum + throughput * (m.Ke + m.Ka * vec3<T>(scene_.ambient));
-  for (const lamp& l : lamps_) light_up(p, l, s, material, d, throughput, around);
+  vec3<T> lit = m.Ke + m.Ka * vec3<T>(scene_.ambient);
+  for (const lamp& l : lamps_) light_up(p, l, s, material, d, around, lit);
+  p.sum = p.sum + throughput * lit;
   if (depth == p.max_depth) return true;
 
   vec3<T> kr = m.Kr;

@@ -70,7 +70,7 @@ class shader {
   bool shade(path& p, const vec3<T>& o, const vec3<T>& d, vec3<T> throughput, std::uint32_t depth,
              const media& around) const;
   void light_up(path& p, const lamp& l, const surface<T>& s, std::uint32_t material,
-                const vec3<T>& d, const vec3<T>& throughput, const media& around) const;
+                const vec3<T>& d, const media& around, vec3<T>& lit) const;
   std::uint32_t material_of(std::uint32_t instance, std::uint32_t triangle) const;
 
   const scene& scene_;

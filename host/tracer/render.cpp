@@ -1,61 +1,19 @@
 // Pictures, tile by tile: device_scene::render.
 #include <algorithm>
+#include <functional>
+#include <optional>
 
 #include "scene/error.hpp"
 #include "scene/media.hpp"
+#include "tracer/split_render.hpp"
 #include "tracer/state.hpp"
 #include "tracer/stopwatch.hpp"
+#include "tracer/tiler.hpp"
 
 namespace facet::tracer {
 namespace {
 
-/// What a launch should take: no watchdog fires, progress moves, Ctrl-C is answered.
-constexpr double launch_ms = 50;
-
-struct tile {
-  std::uint32_t left, top, right, bottom;
-  std::uint64_t pixels() const { return std::uint64_t(right - left) * (bottom - top); }
-};
-
-/// Hands out the picture's tiles from the top left, row by row. With no size given a tile is as
-/// many whole rows as the last one's speed says fit into launch_ms, and at most 4 times more than
-/// before; the first is a 32nd of the picture.
-class tiler {
- public:
-  tiler(std::uint32_t width, std::uint32_t height, const options& o, std::uint32_t group_height)
-      : width_(width),
-        height_(height),
-        fixed_width_(o.tile_width),
-        fixed_height_(o.tile_height),
-        step_(group_height),
-        rows_(round_up(std::max(1u, height / 32))) {}
-
-  bool next(tile& t) {
-    if (top_ >= height_) return false;
-    const std::uint32_t w = fixed_width_ ? fixed_width_ : width_;
-    const std::uint32_t h = fixed_height_ ? fixed_height_ : rows_;
-    t = {left_, top_, std::min(width_, left_ + std::min(w, width_)),
-         std::min(height_, top_ + std::min(h, height_))};
-    if (t.right == width_)
-      left_ = 0, top_ = t.bottom;
-    else
-      left_ = t.right;
-    return true;
-  }
-
-  void took(const tile& t, double ms) {
-    const double fits = (t.bottom - t.top) * launch_ms / std::max(ms, 1e-3);
-    rows_ = round_up(std::uint32_t(std::clamp(fits, 1.0, 4.0 * rows_)));
-  }
-
- private:
-  std::uint32_t round_up(std::uint32_t rows) const {
-    return std::min(height_ + step_, (rows + step_ - 1) / step_ * step_);
-  }
-
-  std::uint32_t width_, height_, fixed_width_, fixed_height_, step_, rows_;
-  std::uint32_t left_ = 0, top_ = 0;
-};
+constexpr std::uint32_t packet_rows = FACET_PACKET / FACET_PACKET_COLUMNS;
 
 struct group_size {
   std::uint32_t width, height;  ///< work-items; 0 x 0: the driver chooses
@@ -75,8 +33,7 @@ struct item_size {
 };
 
 item_size item_of(bool in_packets) {
-  return in_packets ? item_size{FACET_PACKET_COLUMNS, FACET_PACKET / FACET_PACKET_COLUMNS}
-                    : item_size{1, 1};
+  return in_packets ? item_size{FACET_PACKET_COLUMNS, packet_rows} : item_size{1, 1};
 }
 
 /// The tile padded to whole work-groups; the kernel guards.
@@ -114,39 +71,62 @@ picture device_scene::render(std::uint32_t width, std::uint32_t height, std::uin
   const View view = pack_view(s.model, s.camera_media, width, height, max_depth);
   const group_size group = group_of(s.chosen, s.tuned, s.in_packets);
   const item_size item = item_of(s.in_packets);
-  runtime::kernel kernel = s.render_kernel(max_depth);
 
   const std::uint64_t total = std::uint64_t(width) * height;
   runtime::buffer<View> view_buffer(&view, 1);
   runtime::buffer<texel> pixels(total);
-  const auto launch = [&](const tile& t) {
-    return s.queue.submit([&](runtime::handler& g) {
-      std::uint32_t k = s.set_geometry(g);
-      k = s.set_normals(g, k);
+  const auto by_one_kernel = [&](const tile& t) {
+    const runtime::kernel kernel = s.render_kernel(max_depth);
+    const runtime::event done = s.queue.submit([&](runtime::handler& g) {
+      std::uint32_t k = s.set_normals(g, s.set_geometry(g));
       g.set_arg(k++, runtime::accessor{s.lights, g, runtime::read_only});
       g.set_arg(k++, runtime::accessor{view_buffer, g, runtime::read_only});
       g.set_arg(k++, runtime::accessor{pixels, g, runtime::read_write});
-      g.set_arg(k++, t.left);
-      g.set_arg(k++, t.top);
-      g.set_arg(k++, t.right);
-      g.set_arg(k++, t.bottom);
+      for (const std::uint32_t x : {t.left, t.top, t.right, t.bottom}) g.set_arg(k++, x);
       launch_over(g, t, item, group, kernel);
     });
+    done.wait_and_throw();
+    return done.milliseconds();
+  };
+  std::optional<split_renderer> split;
+  if (s.is_split()) split.emplace(s, max_depth, total);
+  std::uint64_t refused = 0, crowded = 0;
+  const auto take_faults = [&] {
+    const Faults f = s.read_faults();
+    refused += f.refused, crowded += f.crowded;
+    s.clear_faults();
+  };
+  const std::function<double(const tile&)> render_tile = [&](const tile& t) {
+    if (!split) return by_one_kernel(t);
+    if (const std::optional<double> ms = split->render(t, view_buffer, pixels)) {
+      take_faults();
+      return *ms;
+    }
+    // More rays than there is room for: again in parts, the smallest by the kernel that needs no
+    // room.
+    s.clear_faults();
+    if (t.width() <= FACET_PACKET_COLUMNS && t.height() <= packet_rows) {
+      const double ms = by_one_kernel(t);
+      take_faults();
+      return ms;
+    }
+    const auto [first, second] = halves(t, FACET_PACKET_COLUMNS, packet_rows);
+    return render_tile(first) + render_tile(second);
   };
 
   // The first launch of a work-group size may compile (PoCL does): one pixel pays for it.
-  launch({0, 0, 1, 1}).wait_and_throw();
+  render_tile({0, 0, 1, 1});
   s.clear_faults();
+  refused = crowded = 0;
   const auto start = clock::now();
   std::uint64_t done = 0;
   double kernel_ms = 0;
   std::uint32_t tiles = 0;
-  tiler tiles_left(width, height, s.chosen, std::max(1u, group.height) * item.height);
+  tiler tiles_left(width, height, s.chosen, std::max(1u, group.height) * item.height,
+                   split ? split->most_pixels() : total);
   for (tile t{}; tiles_left.next(t);) {
     if (cancel && cancel->load()) throw cancelled(done, total);
-    const runtime::event finished = launch(t);
-    finished.wait_and_throw();
-    const double ms = finished.milliseconds();
+    const double ms = render_tile(t);
     tiles_left.took(t, ms);
     kernel_ms += ms;
     done += t.pixels();
@@ -164,12 +144,14 @@ picture device_scene::render(std::uint32_t width, std::uint32_t height, std::uin
     s.describe(*stats);
     stats->kernel_ms = {kernel_ms};
     stats->rays = total * s.model.samples * s.model.samples;
-    stats->group_width = group.width;
-    stats->group_height = group.height;
+    stats->is_split = split.has_value();
+    stats->group_width = split ? s.tuned.split_render_group : group.width;
+    stats->group_height = split ? 1 : group.height;
+    if (split) stats->rays_a_work_item = 1;
     stats->tiles = tiles;
-    const Faults faults = s.read_faults();
-    stats->refused = faults.refused;
-    stats->crowded = faults.crowded;
+    take_faults();
+    stats->refused = refused;
+    stats->crowded = crowded;
     stats->wall_ms = milliseconds_since(start);
   }
   return result;

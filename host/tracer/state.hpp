@@ -31,6 +31,8 @@ struct device_scene::state {
   runtime::kernel trace_kernel(bool any);
   runtime::kernel render_kernel(std::uint32_t max_depth);
   const char* render_file() const;
+  /// Whether the next picture is made by several kernels.
+  bool is_split() const;
   runtime::kernel probe_kernel(const char* name);
 
   /// Sets a kernel's first arguments, those of every traversal (cl/trace.cl, cl/render.cl).

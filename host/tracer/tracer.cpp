@@ -4,6 +4,7 @@
 
 #include "scene/media.hpp"
 #include "tracer/pack.hpp"
+#include "tracer/split_render.hpp"
 #include "tracer/state.hpp"
 #include "tracer/wide_geometry.hpp"
 
@@ -121,6 +122,7 @@ void device_scene::leave_work_group_to_driver() { state_->chosen.driver_group = 
 
 kernel_description device_scene::describe_render(std::uint32_t max_depth) {
   state& s = *state_;
+  if (s.is_split()) return split_renderer(s, max_depth, 1).describe();
   const runtime::kernel kernel = s.render_kernel(max_depth);
   return {runtime::expand(s.kernels, s.render_file()), s.render_program->options(),
           kernel.work_group_size(s.queue.get_device())};
@@ -144,6 +146,12 @@ runtime::kernel device_scene::state::render_kernel(std::uint32_t max_depth) {
     render_stack = max_depth;
   }
   return render_program->get_kernel("render");
+}
+
+bool device_scene::state::is_split() const {
+  if (chosen.split != split_kind::automatic) return chosen.split == split_kind::on;
+  // A work-group that was asked for is that of the kernel for whole pixels.
+  return tuned.split_render && chosen.group_width == 0 && !chosen.driver_group;
 }
 
 const char* device_scene::state::render_file() const {

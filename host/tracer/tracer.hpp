@@ -30,6 +30,10 @@ enum class layout_kind { automatic, narrow, wide };
 /// they stay close, or one. It can in the wide layout, with a tree.
 enum class packet_kind { automatic, on, off };
 
+/// Whether a picture's rays of one depth are traced and shaded by launches of their own
+/// (split_render.hpp), or each pixel's all by one work-item. The picture is the same.
+enum class split_kind { automatic, on, off };
+
 /// A change of the kernels' text: `from`, which must stand in `file` exactly once, becomes `to`.
 struct kernel_edit {
   std::string file, from, to;
@@ -40,6 +44,7 @@ struct options {
   geometry_kind geometry = geometry_kind::automatic;
   layout_kind layout = layout_kind::automatic;
   packet_kind packets = packet_kind::automatic;
+  split_kind split = split_kind::automatic;
   std::uint32_t group_width = 0, group_height = 0;  ///< work-group; 0: the device's default
   bool driver_group = false;                        ///< the driver chooses the work-group instead
   std::uint32_t tile_width = 0, tile_height = 0;    ///< pixels a launch; 0: about 50 ms each
@@ -114,6 +119,7 @@ struct statistics {
   std::string geometry;                ///< "image" or "buffer", as chosen
   std::string layout;                  ///< "wide" or "narrow", as chosen
   std::uint32_t rays_a_work_item = 1;  ///< or pixels
+  bool is_split = false;               ///< render: by several kernels
   std::string features;                ///< what the kernel was compiled with, comma-separated
   std::uint32_t tree_depth = 0;
   std::uint64_t tree_nodes = 0;
@@ -188,8 +194,9 @@ class device_scene {
   /// The trees that rays are led by. Throws runtime::exception (invalid) with tree_kind::none.
   traced_trees read_trees() const;
 
+  struct state;  ///< state.hpp
+
  private:
-  struct state;
   std::unique_ptr<state> state_;
 };
 

@@ -29,6 +29,7 @@ tuning tuning_for(const runtime::device& d) {
   if (d.is_gpu()) {
     t.bounds_group = 256;
     t.serial_trees = false;
+    t.split_render = true;
     t.list_group = 256;
     t.list_each = 4;
     t.scan_group = 256;

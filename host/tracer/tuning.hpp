@@ -14,6 +14,7 @@ struct tuning {
   std::uint32_t packet_group = 4;  ///< of those whose work-items take packets
   std::uint32_t render_group_width = 8,
                 render_group_height = 8;  ///< the render kernel's work-group
+  std::uint32_t split_render_group = 64;  ///< of the kernels of cl/render_split.cl
   std::uint32_t leaf_sure = 2;    ///< triangles: a subtree of at most so many is a leaf, ...
   std::uint32_t leaf_size = 4;    ///< ... of more than so many not (1 to 16)
   std::uint32_t block_run = 256;  ///< blocks of the wide layout that a work-item makes
@@ -27,6 +28,7 @@ struct tuning {
   bool image_geometry = false;        ///< what --geometry auto means
   bool wide_layout = false;           ///< what layout_kind::automatic means, but for images
   bool packets = false;               ///< what packet_kind::automatic means, if they can be
+  bool split_render = false;          ///< what split_kind::automatic means
   bool hardware_minmax = false;       ///< cl/device.h
   bool warps = false;                 ///< PTX of sm_70 can be written (cl/warp.h)
   std::uint32_t trace_registers = 0;  ///< of trace.cl's kernels (register_cap)

@@ -33,7 +33,7 @@ bool same_bits(const picture& a, const picture& b) {
 TEST_CASE("trees, geometry, work-groups, tiles and feature sets all give the same picture") {
   const scene s = test::every_feature();
   const picture expected = render(s);
-  std::vector<options> ways(15);
+  std::vector<options> ways(18);
   ways[0].tree = tree_kind::none;
   ways[1].geometry = geometry_kind::image;
   ways[2].all_features = true;
@@ -47,6 +47,9 @@ TEST_CASE("trees, geometry, work-groups, tiles and feature sets all give the sam
   ways[12].layout = tracer::layout_kind::narrow;
   ways[13].layout = tracer::layout_kind::wide, ways[13].packets = tracer::packet_kind::off;
   ways[14].layout = tracer::layout_kind::wide, ways[14].packets = tracer::packet_kind::on;
+  ways[15].split = tracer::split_kind::on;
+  ways[16].split = tracer::split_kind::off;
+  ways[17] = ways[8], ways[17].split = tracer::split_kind::on;
   for (std::size_t k = 0; k < ways.size(); ++k) {
     CAPTURE(k);
     CHECK(same_bits(render(s, ways[k]), expected));

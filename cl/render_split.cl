@@ -1,0 +1,136 @@
+// A tile of a picture, one sample of each pixel at a time, by several kernels (ray_tree.h):
+//
+//   eye_rays                                     depth 0, a ray a pixel
+//   trace_rays, shade_rays: for each depth       what rays of it meet; lights, and the rays that follow
+//   sum_samples                                  each pixel's tree, in the order of states.h
+//
+// Pixels are taken in blocks of 8 by 4, so that a warp's rays go the same way.
+#include "eye.h"
+#include "ray_tree.h"
+#include "states.h"
+
+#define COLUMNS FACET_PACKET_COLUMNS
+#define ROWS (FACET_PACKET / FACET_PACKET_COLUMNS)
+
+// The pixel of ray i, in a tile that is so many blocks wide.
+static inline uint2 pixel_of(uint i, uint left, uint top, uint across) {
+  const uint block = i / FACET_PACKET, k = i % FACET_PACKET;
+  return (uint2)(left + COLUMNS * (block % across) + k % COLUMNS, top + ROWS * (block / across) + k / COLUMNS);
+}
+
+// A pixel beyond the tile has no ray: its direction is 0.
+__kernel void eye_rays(__global const View* view, __global float4* origins, __global float4* directions,
+                       __global float4* throughputs, __global uint* media, uint left, uint top, uint right,
+                       uint bottom, uint sample, uint count) {
+  const uint i = (uint)get_global_id(0);
+  if (i >= count) return;
+  const uint2 at = pixel_of(i, left, top, (right - left + COLUMNS - 1u) / COLUMNS);
+  const bool is_there = at.x < right && at.y < bottom;
+  const uint n = view->samples;
+  const float3 direction =
+      is_there ? eye_direction(view, at.x, at.y, sample % n, sample / n) : (float3)(0.0f);
+  const RayLists rays = ray_lists(origins, directions, throughputs, media);
+  put_ray(&rays, i, vec_global(view->origin), direction, (float3)(1.0f), media_of(view->media));
+}
+
+// Rays first to first + count: those that miss are done; of the others hits, and what they belong to, are listed.
+// counts[2 depth] is the number of hits of that depth, counts[2 depth + 1] that of the rays that follow them.
+__kernel void trace_rays(__global const World* world, __global const SceneNode* nodes,
+                         __global const Instance* instances, __global const TriangleInfo* infos,
+                         __global const Material* materials, __global Faults* faults, GEOMETRY positions,
+                         __global const View* view, __global float4* origins, __global float4* directions,
+                         __global float4* throughputs, __global RayNode* tree, __global float4* hits,
+                         __global uint2* hit_rays, volatile __global uint* counts, uint depth, uint first,
+                         uint count) {
+  __local uint pool[2];
+  const uint i = first + (uint)get_global_id(0);
+  const Scene s = scene_of(world, nodes, instances, infos, materials, faults);
+  const float3 d = i < first + count ? directions[i].xyz : (float3)(0.0f);
+  bool is_met = false;
+  Query q;
+  if (!is_black(d)) {
+    q = traverse(&s, positions, origins[i].xyz, d, 0.0f, INFINITY, FACET_CLOSEST);
+    is_met = q.triangle != FACET_NONE;
+    if (!is_met) {
+      const float3 light = throughputs[i].xyz * vec_global(view->background);
+      tree[i] = ray_node(light, depth == 0u ? view->background_alpha : 1.0f);
+    }
+  }
+  const uint at = appended(is_met ? 1u : 0u, pool, &counts[2u * depth]);
+  if (!is_met) return;
+  hits[at] = (float4)(q.t, q.u, q.v, as_float(q.slot));
+  hit_rays[at] = (uint2)(i, q.place);
+}
+
+// Hits of one depth. Rays that follow go from `next` on; beyond `capacity` they are counted, and not written.
+__kernel void shade_rays(__global const World* world, __global const SceneNode* nodes,
+                         __global const Instance* instances, __global const TriangleInfo* infos,
+                         __global const Material* materials, __global Faults* faults, GEOMETRY positions,
+                         GEOMETRY normals, __global const Light* lights, __global const View* view,
+                         __global float4* origins, __global float4* directions, __global float4* throughputs,
+                         __global uint* media, __global RayNode* tree, __global const float4* hits,
+                         __global const uint2* hit_rays, volatile __global uint* counts, uint depth, uint next,
+                         uint capacity) {
+  __local uint pool[2];
+  const uint k = (uint)get_global_id(0);
+  const Scene s = scene_of(world, nodes, instances, infos, materials, faults);
+  const RayLists rays = ray_lists(origins, directions, throughputs, media);
+  PendingRay followed, other[1];
+  uint others = 0u, children = 0u, i = 0u;
+  RayNode node;
+  const bool is_there = k < counts[2u * depth];
+  if (is_there) {
+    const uint2 of = hit_rays[k];
+    const float4 hit = hits[k];
+    Query q;
+    q.t = hit.x, q.u = hit.y, q.v = hit.z;
+    q.slot = as_uint(hit.w);
+    q.place = of.y;
+    i = of.x;
+    followed.direction = directions[i].xyz;
+    followed.throughput = throughputs[i].xyz;
+    followed.depth = depth;
+    followed.media = media_at(&rays, i);
+    const Surface f = arrive(&s, positions, normals, &q, &followed);
+    __global const Material* m = &materials[f.material];
+    node = ray_node(followed.throughput * lit_by_all(&s, positions, lights, view, &f, m, &followed), 1.0f);
+    if (branch(&s, &f, m, &followed, other, &others, view->max_depth) == TRACE) children = 1u + others;
+  }
+  const uint at = next + appended(children, pool, &counts[2u * depth + 1u]);
+  if (!is_there) return;
+  if (children > 0u && at + children <= capacity && at + children > at) {
+    node.first = at;
+    put_ray(&rays, at, followed.origin, followed.direction, followed.throughput, followed.media);
+    if (others > 0u) {
+      node.second = at + 1u;
+      put_ray(&rays, at + 1u, other[0].origin, other[0].direction, other[0].throughput, other[0].media);
+    }
+  }
+  tree[i] = node;
+}
+
+// Adds a sample to each pixel, and divides by their number at the last.
+__kernel void sum_samples(__global const View* view, __global const RayNode* tree, __global float4* pixels,
+                          uint left, uint top, uint right, uint bottom, uint sample, uint count) {
+  const uint i = (uint)get_global_id(0);
+  if (i >= count) return;
+  const uint2 at = pixel_of(i, left, top, (right - left + COLUMNS - 1u) / COLUMNS);
+  if (at.x >= right || at.y >= bottom) return;
+  uint waiting[FACET_RAY_STACK], top_of = 0u;
+  float3 light = (float3)(0.0f);
+  for (uint k = i;;) {
+    const RayNode node = tree[k];
+    light = light + vec(node.light);
+    if (node.second != FACET_NONE) waiting[top_of++] = node.second;
+    if (node.first != FACET_NONE)
+      k = node.first;
+    else if (top_of > 0u)
+      k = waiting[--top_of];
+    else
+      break;
+  }
+  const size_t pixel = (size_t)at.y * view->width + at.x;
+  const uint last = view->samples * view->samples - 1u;
+  const float4 sum = (sample == 0u ? (float4)(0.0f) : pixels[pixel]) + (float4)(light, tree[i].alpha);
+  pixels[pixel] = sample == last ? sum / (float)(last + 1u) : sum;
+}

@@ -1,0 +1,160 @@
+#include "tracer/split_render.hpp"
+
+#include <algorithm>
+
+#include "tracer/launch.hpp"
+
+namespace facet::tracer {
+namespace {
+
+constexpr const char* main_file = "render_split.cl";
+
+constexpr std::uint32_t columns = FACET_PACKET_COLUMNS, rows = FACET_PACKET / FACET_PACKET_COLUMNS;
+
+/// Places of a tile's eye rays: whole blocks of pixels.
+std::uint64_t places(const tile& t) {
+  return std::uint64_t((t.width() + columns - 1) / columns) * ((t.height() + rows - 1) / rows) *
+         FACET_PACKET;
+}
+
+}  // namespace
+
+split_renderer::split_renderer(device_scene::state& s, std::uint32_t max_depth,
+                               std::uint64_t pixels)
+    : state_(s),
+      max_depth_(max_depth),
+      group_(s.tuned.split_render_group),
+      capacity_(capacity_for(pixels)),
+      program_(
+          compiled(s.queue, s.kernels, main_file,
+                   traversal_options(s.used, s.model.nesting, s.chosen.tree, s.in_images,
+                                     s.geometry.is_wide, s.geometry.stack, max_depth, s.tuned))),
+      eye_(program_.get_kernel("eye_rays")),
+      trace_(program_.get_kernel("trace_rays")),
+      shade_(program_.get_kernel("shade_rays")),
+      sum_(program_.get_kernel("sum_samples")),
+      origins_(capacity_),
+      directions_(capacity_),
+      throughputs_(capacity_),
+      hits_(capacity_),
+      media_(s.used.transparency ? capacity_ * s.model.nesting : 1),
+      hit_rays_(capacity_),
+      tree_(capacity_),
+      counts_(2 * (std::size_t(max_depth) + 1)) {}
+
+kernel_description split_renderer::describe() const {
+  return {runtime::expand(state_.kernels, main_file), program_.options(),
+          shade_.work_group_size(state_.queue.get_device())};
+}
+
+std::uint64_t split_renderer::capacity_for(std::uint64_t pixels) const {
+  const runtime::device d = state_.queue.get_device();
+  const std::uint64_t each = 4 * sizeof(texel) + 8 + sizeof(RayNode) + 4 * state_.model.nesting;
+  const std::uint64_t most = std::min(
+      {d.global_mem_size() / 8 / each, d.max_mem_alloc_size() / 32, std::uint64_t(1) << 23});
+  return std::clamp(pixels * rays_a_pixel, std::uint64_t(FACET_PACKET) * rays_a_pixel,
+                    std::max(most, std::uint64_t(FACET_PACKET) * rays_a_pixel));
+}
+
+std::uint32_t split_renderer::set_rays(runtime::handler& h, std::uint32_t k) {
+  h.set_arg(k++, runtime::accessor{origins_, h, runtime::read_write});
+  h.set_arg(k++, runtime::accessor{directions_, h, runtime::read_write});
+  h.set_arg(k++, runtime::accessor{throughputs_, h, runtime::read_write});
+  return k;
+}
+
+void split_renderer::eye_rays(const tile& t, std::uint32_t index, std::uint32_t count,
+                              runtime::buffer<View>& view) {
+  done_.push_back(state_.queue.submit([&](runtime::handler& h) {
+    std::uint32_t k = 0;
+    h.set_arg(k++, runtime::accessor{view, h, runtime::read_only});
+    k = set_rays(h, k);
+    h.set_arg(k++, runtime::accessor{media_, h, runtime::read_write});
+    for (const std::uint32_t x : {t.left, t.top, t.right, t.bottom, index, count})
+      h.set_arg(k++, x);
+    h.parallel_for(padded(count, group_), eye_);
+  }));
+}
+
+void split_renderer::trace_rays(std::uint32_t depth, std::uint32_t first, std::uint32_t count,
+                                runtime::buffer<View>& view) {
+  done_.push_back(state_.queue.submit([&](runtime::handler& h) {
+    std::uint32_t k = state_.set_geometry(h);
+    h.set_arg(k++, runtime::accessor{view, h, runtime::read_only});
+    k = set_rays(h, k);
+    h.set_arg(k++, runtime::accessor{tree_, h, runtime::read_write});
+    h.set_arg(k++, runtime::accessor{hits_, h, runtime::read_write});
+    h.set_arg(k++, runtime::accessor{hit_rays_, h, runtime::read_write});
+    h.set_arg(k++, runtime::accessor{counts_, h, runtime::read_write});
+    for (const std::uint32_t x : {depth, first, count}) h.set_arg(k++, x);
+    h.parallel_for(padded(count, group_), trace_);
+  }));
+}
+
+void split_renderer::shade_rays(std::uint32_t depth, std::uint32_t hits, std::uint32_t next,
+                                runtime::buffer<View>& view) {
+  done_.push_back(state_.queue.submit([&](runtime::handler& h) {
+    std::uint32_t k = state_.set_normals(h, state_.set_geometry(h));
+    h.set_arg(k++, runtime::accessor{state_.lights, h, runtime::read_only});
+    h.set_arg(k++, runtime::accessor{view, h, runtime::read_only});
+    k = set_rays(h, k);
+    h.set_arg(k++, runtime::accessor{media_, h, runtime::read_write});
+    h.set_arg(k++, runtime::accessor{tree_, h, runtime::read_write});
+    h.set_arg(k++, runtime::accessor{hits_, h, runtime::read_only});
+    h.set_arg(k++, runtime::accessor{hit_rays_, h, runtime::read_only});
+    h.set_arg(k++, runtime::accessor{counts_, h, runtime::read_write});
+    for (const std::uint32_t x : {depth, next, std::uint32_t(capacity_)}) h.set_arg(k++, x);
+    h.parallel_for(padded(hits, group_), shade_);
+  }));
+}
+
+void split_renderer::sum_samples(const tile& t, std::uint32_t index, std::uint32_t count,
+                                 runtime::buffer<View>& view, runtime::buffer<texel>& pixels) {
+  done_.push_back(state_.queue.submit([&](runtime::handler& h) {
+    std::uint32_t k = 0;
+    h.set_arg(k++, runtime::accessor{view, h, runtime::read_only});
+    h.set_arg(k++, runtime::accessor{tree_, h, runtime::read_only});
+    h.set_arg(k++, runtime::accessor{pixels, h, runtime::read_write});
+    for (const std::uint32_t x : {t.left, t.top, t.right, t.bottom, index, count})
+      h.set_arg(k++, x);
+    h.parallel_for(padded(count, group_), sum_);
+  }));
+}
+
+/// One sample of each of the tile's pixels; false if the rays had no room.
+bool split_renderer::sample(const tile& t, std::uint32_t index, runtime::buffer<View>& view,
+                            runtime::buffer<texel>& pixels) {
+  const auto eyes = std::uint32_t(places(t));
+  done_.push_back(state_.queue.submit([&](runtime::handler& h) {
+    const runtime::accessor all{counts_, h, runtime::write_only};
+    h.fill(all, 0u);
+  }));
+  eye_rays(t, index, eyes, view);
+  std::uint32_t first = 0, count = eyes;
+  for (std::uint32_t depth = 0; depth <= max_depth_ && count > 0; ++depth) {
+    trace_rays(depth, first, count, view);
+    shade_rays(depth, count, first + count, view);
+    first += count;
+    if (depth == max_depth_) break;
+    const runtime::host_accessor counts{counts_, runtime::read_only};
+    count = counts[2 * depth + 1];
+    if (count > capacity_ - first) return false;
+  }
+  sum_samples(t, index, eyes, view, pixels);
+  return true;
+}
+
+std::optional<double> split_renderer::render(const tile& t, runtime::buffer<View>& view,
+                                             runtime::buffer<texel>& pixels) {
+  if (places(t) > capacity_) return std::nullopt;
+  done_.clear();
+  const std::uint32_t samples = state_.model.samples * state_.model.samples;
+  for (std::uint32_t k = 0; k < samples; ++k)
+    if (!sample(t, k, view, pixels)) return std::nullopt;
+  done_.back().wait_and_throw();
+  double ms = 0;
+  for (const runtime::event& e : done_) ms += e.milliseconds();
+  return ms;
+}
+
+}  // namespace facet::tracer
