@@ -91,6 +91,7 @@ picture device_scene::render(std::uint32_t width, std::uint32_t height, std::uin
   std::optional<split_renderer> split;
   if (s.is_split()) split.emplace(s, max_depth, total);
   std::uint64_t refused = 0, crowded = 0;
+  std::map<std::string, double> parts_ms;
   const auto take_faults = [&] {
     const Faults f = s.read_faults();
     refused += f.refused, crowded += f.crowded;
@@ -98,17 +99,20 @@ picture device_scene::render(std::uint32_t width, std::uint32_t height, std::uin
   };
   const std::function<double(const tile&)> render_tile = [&](const tile& t) {
     if (!split) return by_one_kernel(t);
-    if (const std::optional<double> ms = split->render(t, view_buffer, pixels)) {
+    std::map<std::string, double> ms;
+    if (split->render(t, view_buffer, pixels, ms)) {
       take_faults();
-      return *ms;
+      double sum = 0;
+      for (const auto& [name, one] : ms) sum += one, parts_ms[name] += one;
+      return sum;
     }
     // More rays than there is room for: again in parts, the smallest by the kernel that needs no
     // room.
     s.clear_faults();
     if (t.width() <= FACET_PACKET_COLUMNS && t.height() <= packet_rows) {
-      const double ms = by_one_kernel(t);
+      const double alone = by_one_kernel(t);
       take_faults();
-      return ms;
+      return alone;
     }
     const auto [first, second] = halves(t, FACET_PACKET_COLUMNS, packet_rows);
     return render_tile(first) + render_tile(second);
@@ -118,6 +122,7 @@ picture device_scene::render(std::uint32_t width, std::uint32_t height, std::uin
   render_tile({0, 0, 1, 1});
   s.clear_faults();
   refused = crowded = 0;
+  parts_ms.clear();
   const auto start = clock::now();
   std::uint64_t done = 0;
   double kernel_ms = 0;
@@ -145,6 +150,7 @@ picture device_scene::render(std::uint32_t width, std::uint32_t height, std::uin
     stats->kernel_ms = {kernel_ms};
     stats->rays = total * s.model.samples * s.model.samples;
     stats->is_split = split.has_value();
+    stats->parts_ms = parts_ms;
     stats->group_width = split ? s.tuned.split_render_group : group.width;
     stats->group_height = split ? 1 : group.height;
     if (split) stats->rays_a_work_item = 1;

@@ -50,10 +50,11 @@ kernel_description split_renderer::describe() const {
 std::uint64_t split_renderer::capacity_for(std::uint64_t pixels) const {
   const runtime::device d = state_.queue.get_device();
   const std::uint64_t each = 4 * sizeof(texel) + 8 + sizeof(RayNode) + 4 * state_.model.nesting;
+  const std::uint64_t wanted =
+      state_.chosen.split_rays ? state_.chosen.split_rays : pixels * rays_a_pixel;
   const std::uint64_t most = std::min(
       {d.global_mem_size() / 8 / each, d.max_mem_alloc_size() / 32, std::uint64_t(1) << 23});
-  return std::clamp(pixels * rays_a_pixel, std::uint64_t(FACET_PACKET) * rays_a_pixel,
-                    std::max(most, std::uint64_t(FACET_PACKET) * rays_a_pixel));
+  return std::max(std::min(wanted, most), std::uint64_t(FACET_PACKET) * rays_a_pixel);
 }
 
 std::uint32_t split_renderer::set_rays(runtime::handler& h, std::uint32_t k) {
@@ -63,9 +64,13 @@ std::uint32_t split_renderer::set_rays(runtime::handler& h, std::uint32_t k) {
   return k;
 }
 
+void split_renderer::run(std::string name, const std::function<void(runtime::handler&)>& group) {
+  done_.emplace_back(std::move(name), state_.queue.submit(group));
+}
+
 void split_renderer::eye_rays(const tile& t, std::uint32_t index, std::uint32_t count,
                               runtime::buffer<View>& view) {
-  done_.push_back(state_.queue.submit([&](runtime::handler& h) {
+  run("eye_rays", [&](runtime::handler& h) {
     std::uint32_t k = 0;
     h.set_arg(k++, runtime::accessor{view, h, runtime::read_only});
     k = set_rays(h, k);
@@ -73,12 +78,12 @@ void split_renderer::eye_rays(const tile& t, std::uint32_t index, std::uint32_t 
     for (const std::uint32_t x : {t.left, t.top, t.right, t.bottom, index, count})
       h.set_arg(k++, x);
     h.parallel_for(padded(count, group_), eye_);
-  }));
+  });
 }
 
 void split_renderer::trace_rays(std::uint32_t depth, std::uint32_t first, std::uint32_t count,
                                 runtime::buffer<View>& view) {
-  done_.push_back(state_.queue.submit([&](runtime::handler& h) {
+  run("trace_rays " + std::to_string(depth), [&](runtime::handler& h) {
     std::uint32_t k = state_.set_geometry(h);
     h.set_arg(k++, runtime::accessor{view, h, runtime::read_only});
     k = set_rays(h, k);
@@ -88,12 +93,12 @@ void split_renderer::trace_rays(std::uint32_t depth, std::uint32_t first, std::u
     h.set_arg(k++, runtime::accessor{counts_, h, runtime::read_write});
     for (const std::uint32_t x : {depth, first, count}) h.set_arg(k++, x);
     h.parallel_for(padded(count, group_), trace_);
-  }));
+  });
 }
 
 void split_renderer::shade_rays(std::uint32_t depth, std::uint32_t hits, std::uint32_t next,
                                 runtime::buffer<View>& view) {
-  done_.push_back(state_.queue.submit([&](runtime::handler& h) {
+  run("shade_rays " + std::to_string(depth), [&](runtime::handler& h) {
     std::uint32_t k = state_.set_normals(h, state_.set_geometry(h));
     h.set_arg(k++, runtime::accessor{state_.lights, h, runtime::read_only});
     h.set_arg(k++, runtime::accessor{view, h, runtime::read_only});
@@ -105,12 +110,12 @@ void split_renderer::shade_rays(std::uint32_t depth, std::uint32_t hits, std::ui
     h.set_arg(k++, runtime::accessor{counts_, h, runtime::read_write});
     for (const std::uint32_t x : {depth, next, std::uint32_t(capacity_)}) h.set_arg(k++, x);
     h.parallel_for(padded(hits, group_), shade_);
-  }));
+  });
 }
 
 void split_renderer::sum_samples(const tile& t, std::uint32_t index, std::uint32_t count,
                                  runtime::buffer<View>& view, runtime::buffer<texel>& pixels) {
-  done_.push_back(state_.queue.submit([&](runtime::handler& h) {
+  run("sum_samples", [&](runtime::handler& h) {
     std::uint32_t k = 0;
     h.set_arg(k++, runtime::accessor{view, h, runtime::read_only});
     h.set_arg(k++, runtime::accessor{tree_, h, runtime::read_only});
@@ -118,17 +123,17 @@ void split_renderer::sum_samples(const tile& t, std::uint32_t index, std::uint32
     for (const std::uint32_t x : {t.left, t.top, t.right, t.bottom, index, count})
       h.set_arg(k++, x);
     h.parallel_for(padded(count, group_), sum_);
-  }));
+  });
 }
 
 /// One sample of each of the tile's pixels; false if the rays had no room.
 bool split_renderer::sample(const tile& t, std::uint32_t index, runtime::buffer<View>& view,
                             runtime::buffer<texel>& pixels) {
   const auto eyes = std::uint32_t(places(t));
-  done_.push_back(state_.queue.submit([&](runtime::handler& h) {
+  run("fill", [&](runtime::handler& h) {
     const runtime::accessor all{counts_, h, runtime::write_only};
     h.fill(all, 0u);
-  }));
+  });
   eye_rays(t, index, eyes, view);
   std::uint32_t first = 0, count = eyes;
   for (std::uint32_t depth = 0; depth <= max_depth_ && count > 0; ++depth) {
@@ -144,17 +149,16 @@ bool split_renderer::sample(const tile& t, std::uint32_t index, runtime::buffer<
   return true;
 }
 
-std::optional<double> split_renderer::render(const tile& t, runtime::buffer<View>& view,
-                                             runtime::buffer<texel>& pixels) {
-  if (places(t) > capacity_) return std::nullopt;
+bool split_renderer::render(const tile& t, runtime::buffer<View>& view,
+                            runtime::buffer<texel>& pixels, std::map<std::string, double>& ms) {
+  if (places(t) > capacity_) return false;
   done_.clear();
   const std::uint32_t samples = state_.model.samples * state_.model.samples;
   for (std::uint32_t k = 0; k < samples; ++k)
-    if (!sample(t, k, view, pixels)) return std::nullopt;
-  done_.back().wait_and_throw();
-  double ms = 0;
-  for (const runtime::event& e : done_) ms += e.milliseconds();
-  return ms;
+    if (!sample(t, k, view, pixels)) return false;
+  done_.back().second.wait_and_throw();
+  for (const auto& [name, done] : done_) ms[name] += done.milliseconds();
+  return true;
 }
 
 }  // namespace facet::tracer

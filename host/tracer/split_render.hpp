@@ -3,7 +3,10 @@
 #pragma once
 
 #include <array>
-#include <optional>
+#include <functional>
+#include <map>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "tracer/state.hpp"
@@ -22,9 +25,10 @@ class split_renderer {
 
   kernel_description describe() const;
 
-  /// Milliseconds on the device; nothing if the tile's rays had no room: ask for a smaller one.
-  std::optional<double> render(const tile& t, runtime::buffer<View>& view,
-                               runtime::buffer<texel>& pixels);
+  /// False if the tile's rays had no room: ask for a smaller one. Adds milliseconds on the device
+  /// to `ms`, by kernel and depth.
+  bool render(const tile& t, runtime::buffer<View>& view, runtime::buffer<texel>& pixels,
+              std::map<std::string, double>& ms);
 
  private:
   /// What there is room for on average. Where a tile has more, it is made again in parts.
@@ -42,6 +46,7 @@ class split_renderer {
   void sum_samples(const tile& t, std::uint32_t index, std::uint32_t count,
                    runtime::buffer<View>& view, runtime::buffer<texel>& pixels);
   std::uint32_t set_rays(runtime::handler& h, std::uint32_t k);
+  void run(std::string name, const std::function<void(runtime::handler&)>& group);
 
   device_scene::state& state_;
   std::uint32_t max_depth_, group_;
@@ -53,7 +58,7 @@ class split_renderer {
   runtime::buffer<std::array<std::uint32_t, 2>> hit_rays_;
   runtime::buffer<RayNode> tree_;
   runtime::buffer<std::uint32_t> counts_;
-  std::vector<runtime::event> done_;  ///< of the tile under way
+  std::vector<std::pair<std::string, runtime::event>> done_;  ///< of the tile under way
 };
 
 }  // namespace facet::tracer

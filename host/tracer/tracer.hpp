@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -48,6 +49,7 @@ struct options {
   std::uint32_t group_width = 0, group_height = 0;  ///< work-group; 0: the device's default
   bool driver_group = false;                        ///< the driver chooses the work-group instead
   std::uint32_t tile_width = 0, tile_height = 0;    ///< pixels a launch; 0: about 50 ms each
+  std::uint64_t split_rays = 0;                     ///< room for so many; 0: by picture and device
   bool all_features = false;                        ///< compile what the scene does not need, too
   std::string kernel_folder;                        ///< read cl/ from here, not from the library
   std::vector<kernel_edit> edits;                   ///< how a variant differs, in order
@@ -112,8 +114,10 @@ struct statistics {
   double upload_ms = 0;           ///< packing and moving the scene, host clock
   double build_ms = 0;            ///< tree, host clock from first launch to last
   std::vector<double> kernel_ms;  ///< trace: one a repeat; render: the sum over the tiles, once
-  double wall_ms = 0;             ///< first timed launch until the result is on the host
-  std::uint64_t rays = 0;         ///< trace: those given; render: eye rays
+  /// Of a picture by several kernels: what each took, by name and depth, all tiles together.
+  std::map<std::string, double> parts_ms;
+  double wall_ms = 0;      ///< first timed launch until the result is on the host
+  std::uint64_t rays = 0;  ///< trace: those given; render: eye rays
   std::uint32_t group_width = 0, group_height = 0;  ///< 0 where the driver chose
   std::uint32_t tiles = 0;
   std::string geometry;                ///< "image" or "buffer", as chosen
