@@ -1,8 +1,14 @@
 // A tile of a picture, one sample of each pixel at a time, by several kernels (ray_tree.h):
 //
-//   eye_rays                                     depth 0, a ray a pixel
-//   trace_rays, shade_rays: for each depth       what rays of it meet; lights, and the rays that follow
-//   sum_samples                                  each pixel's tree, in the order of states.h
+//   eye_rays                  depth 0, a ray a pixel
+//   for each depth
+//     trace_rays              what rays of it meet
+//     shade_rays              the surfaces, and the rays that follow
+//     light_rays              what lights add
+//   sum_samples               each pixel's tree, in the order of states.h
+//
+// Shading by itself waits for memory, and traversal for work-items that are many: together they would need
+// registers that keep work-items few.
 //
 // Pixels are taken in blocks of 8 by 4, so that a warp's rays go the same way.
 #include "eye.h"
@@ -62,22 +68,40 @@ __kernel void trace_rays(__global const World* world, __global const SceneNode* 
   hit_rays[at] = (uint2)(i, q.place);
 }
 
+// A surface in memory: three vectors, each with one thing more.
+static inline void put_surface(__global float4* surfaces, uint k, const Surface* f) {
+  surfaces[3u * k] = (float4)(f->p, f->delta);
+  surfaces[3u * k + 1u] = (float4)(f->geometric, as_float(f->material));
+  surfaces[3u * k + 2u] = (float4)(f->shading, f->is_front ? 1.0f : 0.0f);
+}
+
+static inline Surface surface_in(__global const float4* surfaces, uint k) {
+  const float4 p = surfaces[3u * k], geometric = surfaces[3u * k + 1u], shading = surfaces[3u * k + 2u];
+  Surface f;
+  f.p = p.xyz;
+  f.delta = p.w;
+  f.geometric = geometric.xyz;
+  f.material = as_uint(geometric.w);
+  f.shading = shading.xyz;
+  f.is_front = shading.w != 0.0f;
+  return f;
+}
+
 // Hits of one depth. Rays that follow go from `next` on; beyond `capacity` they are counted, and not written.
 __kernel void shade_rays(__global const World* world, __global const SceneNode* nodes,
                          __global const Instance* instances, __global const TriangleInfo* infos,
                          __global const Material* materials, __global Faults* faults, GEOMETRY positions,
-                         GEOMETRY normals, __global const Light* lights, __global const View* view,
-                         __global float4* origins, __global float4* directions, __global float4* throughputs,
-                         __global uint* media, __global RayNode* tree, __global const float4* hits,
-                         __global const uint2* hit_rays, volatile __global uint* counts, uint depth, uint next,
+                         GEOMETRY normals, __global const View* view, __global float4* origins,
+                         __global float4* directions, __global float4* throughputs, __global uint* media,
+                         __global RayNode* tree, __global const float4* hits, __global const uint2* hit_rays,
+                         __global float4* surfaces, volatile __global uint* counts, uint depth, uint next,
                          uint capacity) {
   __local uint pool[2];
   const uint k = (uint)get_global_id(0);
   const Scene s = scene_of(world, nodes, instances, infos, materials, faults);
   const RayLists rays = ray_lists(origins, directions, throughputs, media);
   PendingRay followed, other[1];
-  uint others = 0u, children = 0u, i = 0u;
-  RayNode node;
+  uint followers = 0u, others = 0u, i = 0u;
   const bool is_there = k < counts[2u * depth];
   if (is_there) {
     const uint2 of = hit_rays[k];
@@ -92,21 +116,47 @@ __kernel void shade_rays(__global const World* world, __global const SceneNode* 
     followed.depth = depth;
     followed.media = media_at(&rays, i);
     const Surface f = arrive(&s, positions, normals, &q, &followed);
-    __global const Material* m = &materials[f.material];
-    node = ray_node(followed.throughput * lit_by_all(&s, positions, lights, view, &f, m, &followed), 1.0f);
-    if (branch(&s, &f, m, &followed, other, &others, view->max_depth) == TRACE) children = 1u + others;
+    put_surface(surfaces, k, &f);
+    throughputs[i] = (float4)(followed.throughput, 0.0f);
+    if (branch(&s, &f, &materials[f.material], &followed, other, &others, view->max_depth) == TRACE)
+      followers = 1u;
   }
-  const uint at = next + appended(children, pool, &counts[2u * depth + 1u]);
+  // A group's reflected rays lie together, and so do its refracted ones.
+  volatile __global uint* length = &counts[2u * depth + 1u];
+  const uint first = next + appended(followers, pool, length);
+  const uint second = next + appended(others, pool, length);
   if (!is_there) return;
-  if (children > 0u && at + children <= capacity && at + children > at) {
-    node.first = at;
-    put_ray(&rays, at, followed.origin, followed.direction, followed.throughput, followed.media);
-    if (others > 0u) {
-      node.second = at + 1u;
-      put_ray(&rays, at + 1u, other[0].origin, other[0].direction, other[0].throughput, other[0].media);
-    }
+  RayNode node = ray_node((float3)(0.0f), 1.0f);
+  if (followers > 0u && first < capacity) {
+    node.first = first;
+    put_ray(&rays, first, followed.origin, followed.direction, followed.throughput, followed.media);
+  }
+  if (others > 0u && second < capacity) {
+    node.second = second;
+    put_ray(&rays, second, other[0].origin, other[0].direction, other[0].throughput, other[0].media);
   }
   tree[i] = node;
+}
+
+__kernel void light_rays(__global const World* world, __global const SceneNode* nodes,
+                         __global const Instance* instances, __global const TriangleInfo* infos,
+                         __global const Material* materials, __global Faults* faults, GEOMETRY positions,
+                         __global const Light* lights, __global const View* view, __global float4* origins,
+                         __global float4* directions, __global float4* throughputs, __global uint* media,
+                         __global RayNode* tree, __global const uint2* hit_rays,
+                         __global const float4* surfaces, __global const uint* counts, uint depth) {
+  const uint k = (uint)get_global_id(0);
+  if (k >= counts[2u * depth]) return;
+  const Scene s = scene_of(world, nodes, instances, infos, materials, faults);
+  const RayLists rays = ray_lists(origins, directions, throughputs, media);
+  const uint i = hit_rays[k].x;
+  const Surface f = surface_in(surfaces, k);
+  const PendingRay ray = {(float3)(0.0f), directions[i].xyz, (float3)(0.0f), depth, media_at(&rays, i)};
+  const float3 light = throughputs[i].xyz *
+                       lit_by_all(&s, positions, lights, view, &f, &materials[f.material], &ray);
+  tree[i].light[0] = light.x;
+  tree[i].light[1] = light.y;
+  tree[i].light[2] = light.z;
 }
 
 // Adds a sample to each pixel, and divides by their number at the last.

@@ -52,8 +52,8 @@ static inline uint enter_tree(const Scene* s, uint place, float3 o, float3 d, co
 #endif
 
 // Depth first, the nearer child first.
-static inline void search_closest(const Scene* s, GEOMETRY positions, float3 o, float3 d, float tmin,
-                                  Space* space, Query* q) {
+static inline void search_in_order(const Scene* s, GEOMETRY positions, float3 o, float3 d, float tmin, uint mode,
+                                   Space* space, Query* q) {
   uint waiting[FACET_STACK];
   float near_of[FACET_STACK];
   int top = 0;
@@ -67,7 +67,7 @@ static inline void search_closest(const Scene* s, GEOMETRY positions, float3 o, 
 #endif
   for (;;) {
     while (!(node & FACET_LEAF_BIT))
-      node = visit_node(s, node, space, sides, tmin, q->t, FACET_CLOSEST, waiting, near_of, &top);
+      node = visit_node(s, node, space, sides, tmin, q->t, mode, waiting, near_of, &top);
     if (node != FACET_NONE) {
 #ifndef FACET_NO_INSTANCES
       if (!is_inside) {
@@ -77,7 +77,7 @@ static inline void search_closest(const Scene* s, GEOMETRY positions, float3 o, 
         if (is_inside) continue;
       } else
 #endif
-        meet_leaf(s, positions, space, place, outer, node, tmin, FACET_CLOSEST, q);
+        if (meet_leaf(s, positions, space, place, outer, node, tmin, mode, q)) return;
     }
     for (;;) {
       if (top == 0) return;
@@ -90,18 +90,15 @@ static inline void search_closest(const Scene* s, GEOMETRY positions, float3 o, 
         continue;
       }
 #endif
-      if (near_of[top] <= q->t) break;
+      if (mode != FACET_CLOSEST || near_of[top] <= q->t) break;
     }
   }
 }
 
-// What waits above the mark; FACET_NONE if nothing does.
+#ifdef FACET_NO_INSTANCES
+
 static inline uint next_waiting(const uint* waiting, int* top) {
-  if (*top == 0) return FACET_NONE;
-#ifndef FACET_NO_INSTANCES
-  if (waiting[*top - 1] == FACET_INSTANCE_ENDS) return FACET_NONE;
-#endif
-  return waiting[--*top];
+  return *top == 0 ? FACET_NONE : waiting[--*top];
 }
 
 // Lanes of a warp that may go on without a leaf while the others wait with one.
@@ -109,25 +106,19 @@ static inline uint next_waiting(const uint* waiting, int* top) {
 
 // Where t of the hit does not matter and nothing is culled by it, a leaf can wait: a work-item that has
 // found one goes on until it has the next, and a warp until few of its lanes have none, so that leaves
-// are tested by many lanes at once (speculative traversal: Aila and Laine, HPG 2009).
-static inline void search_any(const Scene* s, GEOMETRY positions, float3 o, float3 d, float tmin, uint mode,
-                              Space* space, Query* q) {
+// are tested by many lanes at once (speculative traversal: Aila and Laine, HPG 2009). Not among instances,
+// where lanes would wait for others to enter one (a third slower).
+static inline void search_any(const Scene* s, GEOMETRY positions, float tmin, uint mode, Space* space, Query* q) {
   uint waiting[FACET_STACK];
   int top = 0;
   uint node = s->root, leaf = FACET_NONE;  // that waits
-  Interval outer = {-INFINITY, INFINITY};
-  uint place = 0u;
-  Sides sides = near_sides(space->slabs);
-  bool is_inside = true;
-#ifndef FACET_NO_INSTANCES
-  is_inside = false;  // in an instance's tree
-  const Slabs world = space->slabs;
-#endif
-  for (;;) {
+  const Interval outer = {-INFINITY, INFINITY};
+  const Sides sides = near_sides(space->slabs);
+  do {
     while (!(node & FACET_LEAF_BIT)) {
       node = visit_node(s, node, space, sides, tmin, q->t, mode, waiting, 0, &top);
       if (node == FACET_NONE) node = next_waiting(waiting, &top);
-      if (is_inside && leaf == FACET_NONE && (node & FACET_LEAF_BIT)) {
+      if (leaf == FACET_NONE && (node & FACET_LEAF_BIT)) {
         leaf = node;
         node = next_waiting(waiting, &top);
       }
@@ -135,45 +126,29 @@ static inline void search_any(const Scene* s, GEOMETRY positions, float3 o, floa
       if (active_lanes(leaf == FACET_NONE) <= FEW_LANES) break;
 #endif
     }
-#ifndef FACET_NO_INSTANCES
-    if (!is_inside) {
-      if (node == FACET_NONE) return;
-      if (!(node & FACET_LEAF_BIT)) continue;
-      place = FACET_LEAF_FIRST(node);
-      node = enter_tree(s, place, o, d, world, &outer, space, &sides, waiting, &top);
-      is_inside = node != FACET_NONE;
-      if (!is_inside) node = next_waiting(waiting, &top);
-      continue;
-    }
-#endif
     for (;;) {
       if (leaf == FACET_NONE && (node & FACET_LEAF_BIT)) {
         leaf = node;
         node = next_waiting(waiting, &top);
       }
       if (leaf == FACET_NONE) break;
-      if (meet_leaf(s, positions, space, place, outer, leaf, tmin, mode, q)) return;
+      if (meet_leaf(s, positions, space, 0u, outer, leaf, tmin, mode, q)) return;
       leaf = FACET_NONE;
     }
-    if (node != FACET_NONE) continue;
-#ifdef FACET_NO_INSTANCES
-    return;
-#else
-    --top;  // the mark
-    is_inside = false;
-    space->slabs = world;
-    sides = near_sides(world);
-    node = next_waiting(waiting, &top);
-#endif
-  }
+  } while (node != FACET_NONE);
 }
+
+#endif
 
 static inline void search(const Scene* s, GEOMETRY positions, float3 o, float3 d, float tmin, uint mode,
                           Space* space, Query* q) {
-  if (mode == FACET_CLOSEST)
-    search_closest(s, positions, o, d, tmin, space, q);
-  else
-    search_any(s, positions, o, d, tmin, mode, space, q);
+#ifdef FACET_NO_INSTANCES
+  if (mode != FACET_CLOSEST) {
+    search_any(s, positions, tmin, mode, space, q);
+    return;
+  }
+#endif
+  search_in_order(s, positions, o, d, tmin, mode, space, q);
 }
 
 #endif

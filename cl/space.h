@@ -38,14 +38,14 @@ static inline bool space_of(Space* s, float3 o, float3 d, float3 reach) {
   const float3 main = swapped(s->axis, d);
   s->o = o;
   s->is_turned = (main.z < 0.0f) != (s->axis != 2u);
-  const float3 over_z = (float3)(main.x, main.y, 1.0f) / main.z;
-  s->shear = over_z.xy;
+  s->shear = main.xy / main.z;
   const float3 e = fabs(o) + reach;
   const float extent = larger(e.x, larger(e.y, e.z));
   const uint exponent = as_uint(larger(extent, 0x1p-60f)) & 0x7f800000u;
   s->unit = as_float(0x7f000000u - exponent);
-  s->t_of_unit = over_z.z * as_float(exponent);
   s->slabs = slabs_of(o, d, extent, largest);
+  // The largest component is never raised: this is 1 / d_z.
+  s->t_of_unit = swapped(s->axis, s->slabs.inverse).z * as_float(exponent);
   return true;
 }
 
@@ -112,11 +112,11 @@ static inline void rays_of(Rays* r, uint axis, Points o, Points d, float3 reach,
   *extent = larger_each(fabs(o.x) + reach.x, larger_each(fabs(o.y) + reach.y, fabs(o.z) + reach.z));
   const uint8 exponent = as_uint8(larger_each(*extent, in_all(0x1p-60f))) & 0x7f800000u;
   r->unit = as_float8(0x7f000000u - exponent);
-  r->t_of_unit = 1.0f / main.z * as_float8(exponent);
   const Real pad = (24.0f * FACET_ULP) * *extent, least = largest * 8.673617379884035e-19f;
   slab_of(o.x, d.x, pad, least, &r->inverse.x, &r->near_offset.x, &r->far_offset.x);
   slab_of(o.y, d.y, pad, least, &r->inverse.y, &r->near_offset.y, &r->far_offset.y);
   slab_of(o.z, d.z, pad, least, &r->inverse.z, &r->near_offset.z, &r->far_offset.z);
+  r->t_of_unit = swapped_points(axis, r->inverse).z * as_float8(exponent);
 }
 
 #endif

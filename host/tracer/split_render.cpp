@@ -32,11 +32,13 @@ split_renderer::split_renderer(device_scene::state& s, std::uint32_t max_depth,
       eye_(program_.get_kernel("eye_rays")),
       trace_(program_.get_kernel("trace_rays")),
       shade_(program_.get_kernel("shade_rays")),
+      light_(program_.get_kernel("light_rays")),
       sum_(program_.get_kernel("sum_samples")),
       origins_(capacity_),
       directions_(capacity_),
       throughputs_(capacity_),
       hits_(capacity_),
+      surfaces_(3 * capacity_),
       media_(s.used.transparency ? capacity_ * s.model.nesting : 1),
       hit_rays_(capacity_),
       tree_(capacity_),
@@ -44,16 +46,17 @@ split_renderer::split_renderer(device_scene::state& s, std::uint32_t max_depth,
 
 kernel_description split_renderer::describe() const {
   return {runtime::expand(state_.kernels, main_file), program_.options(),
-          shade_.work_group_size(state_.queue.get_device())};
+          light_.work_group_size(state_.queue.get_device())};
 }
 
 std::uint64_t split_renderer::capacity_for(std::uint64_t pixels) const {
   const runtime::device d = state_.queue.get_device();
-  const std::uint64_t each = 4 * sizeof(texel) + 8 + sizeof(RayNode) + 4 * state_.model.nesting;
+  const std::uint64_t each = 7 * sizeof(texel) + 8 + sizeof(RayNode) + 4 * state_.model.nesting;
   const std::uint64_t wanted =
       state_.chosen.split_rays ? state_.chosen.split_rays : pixels * rays_a_pixel;
-  const std::uint64_t most = std::min(
-      {d.global_mem_size() / 8 / each, d.max_mem_alloc_size() / 32, std::uint64_t(1) << 23});
+  const std::uint64_t most =
+      std::min({d.global_mem_size() / 8 / each, d.max_mem_alloc_size() / (3 * sizeof(texel)),
+                std::uint64_t(1) << 23});
   return std::max(std::min(wanted, most), std::uint64_t(FACET_PACKET) * rays_a_pixel);
 }
 
@@ -100,16 +103,33 @@ void split_renderer::shade_rays(std::uint32_t depth, std::uint32_t hits, std::ui
                                 runtime::buffer<View>& view) {
   run("shade_rays " + std::to_string(depth), [&](runtime::handler& h) {
     std::uint32_t k = state_.set_normals(h, state_.set_geometry(h));
-    h.set_arg(k++, runtime::accessor{state_.lights, h, runtime::read_only});
     h.set_arg(k++, runtime::accessor{view, h, runtime::read_only});
     k = set_rays(h, k);
     h.set_arg(k++, runtime::accessor{media_, h, runtime::read_write});
     h.set_arg(k++, runtime::accessor{tree_, h, runtime::read_write});
     h.set_arg(k++, runtime::accessor{hits_, h, runtime::read_only});
     h.set_arg(k++, runtime::accessor{hit_rays_, h, runtime::read_only});
+    h.set_arg(k++, runtime::accessor{surfaces_, h, runtime::read_write});
     h.set_arg(k++, runtime::accessor{counts_, h, runtime::read_write});
     for (const std::uint32_t x : {depth, next, std::uint32_t(capacity_)}) h.set_arg(k++, x);
     h.parallel_for(padded(hits, group_), shade_);
+  });
+}
+
+void split_renderer::light_rays(std::uint32_t depth, std::uint32_t hits,
+                                runtime::buffer<View>& view) {
+  run("light_rays " + std::to_string(depth), [&](runtime::handler& h) {
+    std::uint32_t k = state_.set_geometry(h);
+    h.set_arg(k++, runtime::accessor{state_.lights, h, runtime::read_only});
+    h.set_arg(k++, runtime::accessor{view, h, runtime::read_only});
+    k = set_rays(h, k);
+    h.set_arg(k++, runtime::accessor{media_, h, runtime::read_write});
+    h.set_arg(k++, runtime::accessor{tree_, h, runtime::read_write});
+    h.set_arg(k++, runtime::accessor{hit_rays_, h, runtime::read_only});
+    h.set_arg(k++, runtime::accessor{surfaces_, h, runtime::read_only});
+    h.set_arg(k++, runtime::accessor{counts_, h, runtime::read_only});
+    h.set_arg(k++, depth);
+    h.parallel_for(padded(hits, group_), light_);
   });
 }
 
@@ -139,6 +159,7 @@ bool split_renderer::sample(const tile& t, std::uint32_t index, runtime::buffer<
   for (std::uint32_t depth = 0; depth <= max_depth_ && count > 0; ++depth) {
     trace_rays(depth, first, count, view);
     shade_rays(depth, count, first + count, view);
+    light_rays(depth, count, view);
     first += count;
     if (depth == max_depth_) break;
     const runtime::host_accessor counts{counts_, runtime::read_only};

@@ -43,6 +43,7 @@ class split_renderer {
                   runtime::buffer<View>& view);
   void shade_rays(std::uint32_t depth, std::uint32_t hits, std::uint32_t next,
                   runtime::buffer<View>& view);
+  void light_rays(std::uint32_t depth, std::uint32_t hits, runtime::buffer<View>& view);
   void sum_samples(const tile& t, std::uint32_t index, std::uint32_t count,
                    runtime::buffer<View>& view, runtime::buffer<texel>& pixels);
   std::uint32_t set_rays(runtime::handler& h, std::uint32_t k);
@@ -52,8 +53,8 @@ class split_renderer {
   std::uint32_t max_depth_, group_;
   std::uint64_t capacity_;  ///< rays
   runtime::program program_;
-  runtime::kernel eye_, trace_, shade_, sum_;
-  runtime::buffer<texel> origins_, directions_, throughputs_, hits_;
+  runtime::kernel eye_, trace_, shade_, light_, sum_;
+  runtime::buffer<texel> origins_, directions_, throughputs_, hits_, surfaces_;
   runtime::buffer<std::uint32_t> media_;
   runtime::buffer<std::array<std::uint32_t, 2>> hit_rays_;
   runtime::buffer<RayNode> tree_;

@@ -15,6 +15,7 @@ struct tuning {
   std::uint32_t render_group_width = 8,
                 render_group_height = 8;  ///< the render kernel's work-group
   std::uint32_t split_render_group = 64;  ///< of the kernels of cl/render_split.cl
+  std::uint32_t split_registers = 0;      ///< of those, too
   std::uint32_t leaf_sure = 2;    ///< triangles: a subtree of at most so many is a leaf, ...
   std::uint32_t leaf_size = 4;    ///< ... of more than so many not (1 to 16)
   std::uint32_t block_run = 256;  ///< blocks of the wide layout that a work-item makes

@@ -117,7 +117,7 @@ TEST_CASE(
     CHECK(stats.refused == expected_stats.refused);
   }
   // A tree that loses the second of two rays is not the same.
-  o.edits = {{"render_split.cl", "node.second = at + 1u;", ""}};
+  o.edits = {{"render_split.cl", "node.second = second;", ""}};
   CHECK_FALSE(same_bits(device_scene(test::queue(), s, o).render(90, 50, 12), expected));
 }
 
