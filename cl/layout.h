@@ -140,8 +140,8 @@ struct FACET_ALIGNED Hit {
   uint triangle;
 };
 
-// A ray of a picture, as its sample is summed up (ray_tree.h): its part of the light, and the rays that follow
-// it, first the one that is followed first, FACET_NONE if there is none.
+// A ray of a picture, as its sample is summed up (ray_tree.h): the light that comes along it, but for that of
+// the rays that follow it, and those, first the one that is followed first, FACET_NONE if there is none.
 struct FACET_PAIR RayNode {
   float light[3];
   float alpha;  // of an eye ray: the sample's

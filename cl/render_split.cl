@@ -4,7 +4,7 @@
 //   for each depth
 //     trace_rays              what rays of it meet
 //     shade_rays              the surfaces, and the rays that follow
-//     light_rays              what lights add
+//     light_rays              what a light adds, for each light
 //   sum_samples               each pixel's tree, in the order of states.h
 //
 // Shading by itself waits for memory, and traversal for work-items that are many: together they would need
@@ -26,8 +26,8 @@ static inline uint2 pixel_of(uint i, uint left, uint top, uint across) {
 
 // A pixel beyond the tile has no ray: its direction is 0.
 __kernel void eye_rays(__global const View* view, __global float4* origins, __global float4* directions,
-                       __global float4* throughputs, __global uint* media, uint left, uint top, uint right,
-                       uint bottom, uint sample, uint count) {
+                       __global float4* throughputs, __global uint* media, __global RayNode* tree, uint left,
+                       uint top, uint right, uint bottom, uint sample, uint count) {
   const uint i = (uint)get_global_id(0);
   if (i >= count) return;
   const uint2 at = pixel_of(i, left, top, (right - left + COLUMNS - 1u) / COLUMNS);
@@ -40,14 +40,14 @@ __kernel void eye_rays(__global const View* view, __global float4* origins, __gl
 }
 
 // Rays first to first + count: those that miss are done; of the others hits, and what they belong to, are listed.
-// counts[2 depth] is the number of hits of that depth, counts[2 depth + 1] that of the rays that follow them.
+// `counts` are those of the depth: of hits, of the rays that follow them, and of the hits before each light.
 __kernel void trace_rays(__global const World* world, __global const SceneNode* nodes,
                          __global const Instance* instances, __global const TriangleInfo* infos,
                          __global const Material* materials, __global Faults* faults, GEOMETRY positions,
-                         __global const View* view, __global float4* origins, __global float4* directions,
-                         __global float4* throughputs, __global RayNode* tree, __global float4* hits,
-                         __global uint2* hit_rays, volatile __global uint* counts, uint depth, uint first,
-                         uint count) {
+                         __global const View* view, __global const float4* origins,
+                         __global const float4* directions, __global RayNode* tree, __global float4* hits,
+                         __global uint2* hit_rays,
+                         volatile __global uint* counts, uint depth, uint first, uint count) {
   __local uint pool[2];
   const uint i = first + (uint)get_global_id(0);
   const Scene s = scene_of(world, nodes, instances, infos, materials, faults);
@@ -57,12 +57,10 @@ __kernel void trace_rays(__global const World* world, __global const SceneNode* 
   if (!is_black(d)) {
     q = traverse(&s, positions, origins[i].xyz, d, 0.0f, INFINITY, FACET_CLOSEST);
     is_met = q.triangle != FACET_NONE;
-    if (!is_met) {
-      const float3 light = throughputs[i].xyz * vec_global(view->background);
-      tree[i] = ray_node(light, depth == 0u ? view->background_alpha : 1.0f);
-    }
+    if (!is_met)
+      tree[i] = ray_node(vec_global(view->background), depth == 0u ? view->background_alpha : 1.0f);
   }
-  const uint at = appended(is_met ? 1u : 0u, pool, &counts[2u * depth]);
+  const uint at = appended(is_met ? 1u : 0u, pool, &counts[0]);
   if (!is_met) return;
   hits[at] = (float4)(q.t, q.u, q.v, as_float(q.slot));
   hit_rays[at] = (uint2)(i, q.place);
@@ -91,18 +89,19 @@ static inline Surface surface_in(__global const float4* surfaces, uint k) {
 __kernel void shade_rays(__global const World* world, __global const SceneNode* nodes,
                          __global const Instance* instances, __global const TriangleInfo* infos,
                          __global const Material* materials, __global Faults* faults, GEOMETRY positions,
-                         GEOMETRY normals, __global const View* view, __global float4* origins,
-                         __global float4* directions, __global float4* throughputs, __global uint* media,
-                         __global RayNode* tree, __global const float4* hits, __global const uint2* hit_rays,
-                         __global float4* surfaces, volatile __global uint* counts, uint depth, uint next,
-                         uint capacity) {
+                         GEOMETRY normals, __global const Light* lights, __global const View* view,
+                         __global float4* origins, __global float4* directions, __global float4* throughputs,
+                         __global uint* media, __global RayNode* tree, __global const float4* hits,
+                         __global const uint2* hit_rays, __global float4* surfaces, __global uint* lit_hits,
+                         volatile __global uint* counts, uint depth, uint next, uint capacity) {
   __local uint pool[2];
   const uint k = (uint)get_global_id(0);
   const Scene s = scene_of(world, nodes, instances, infos, materials, faults);
   const RayLists rays = ray_lists(origins, directions, throughputs, media);
   PendingRay followed, other[1];
+  Surface f;
   uint followers = 0u, others = 0u, i = 0u;
-  const bool is_there = k < counts[2u * depth];
+  const bool is_there = k < counts[0];
   if (is_there) {
     const uint2 of = hit_rays[k];
     const float4 hit = hits[k];
@@ -115,18 +114,24 @@ __kernel void shade_rays(__global const World* world, __global const SceneNode* 
     followed.throughput = throughputs[i].xyz;
     followed.depth = depth;
     followed.media = media_at(&rays, i);
-    const Surface f = arrive(&s, positions, normals, &q, &followed);
+    f = arrive(&s, positions, normals, &q, &followed);
     put_surface(surfaces, k, &f);
     throughputs[i] = (float4)(followed.throughput, 0.0f);
     if (branch(&s, &f, &materials[f.material], &followed, other, &others, view->max_depth) == TRACE)
       followers = 1u;
   }
   // A group's reflected rays lie together, and so do its refracted ones.
-  volatile __global uint* length = &counts[2u * depth + 1u];
+  volatile __global uint* length = &counts[1];
   const uint first = next + appended(followers, pool, length);
   const uint second = next + appended(others, pool, length);
+  for (uint l = 0u; l < view->light_count; ++l) {
+    Lighting to;
+    const bool is_lit = is_there && stands_before(&lights[l], &f, &to);
+    const uint at = appended(is_lit ? 1u : 0u, pool, &counts[2u + l]);
+    if (is_lit) lit_hits[(size_t)capacity * l + at] = k;
+  }
   if (!is_there) return;
-  RayNode node = ray_node((float3)(0.0f), 1.0f);
+  RayNode node = ray_node(unlit(view, &materials[f.material]), 1.0f);
   if (followers > 0u && first < capacity) {
     node.first = first;
     put_ray(&rays, first, followed.origin, followed.direction, followed.throughput, followed.media);
@@ -138,29 +143,30 @@ __kernel void shade_rays(__global const World* world, __global const SceneNode* 
   tree[i] = node;
 }
 
+// Hits that one light stands before.
 __kernel void light_rays(__global const World* world, __global const SceneNode* nodes,
                          __global const Instance* instances, __global const TriangleInfo* infos,
                          __global const Material* materials, __global Faults* faults, GEOMETRY positions,
-                         __global const Light* lights, __global const View* view, __global float4* origins,
-                         __global float4* directions, __global float4* throughputs, __global uint* media,
-                         __global RayNode* tree, __global const uint2* hit_rays,
-                         __global const float4* surfaces, __global const uint* counts, uint depth) {
-  const uint k = (uint)get_global_id(0);
-  if (k >= counts[2u * depth]) return;
+                         __global const Light* lights, __global float4* origins, __global float4* directions,
+                         __global float4* throughputs, __global uint* media, __global RayNode* tree,
+                         __global const uint2* hit_rays, __global const float4* surfaces,
+                         __global const uint* lit_hits, __global const uint* counts, uint l, uint capacity) {
+  if (get_global_id(0) >= counts[2u + l]) return;
+  const uint k = lit_hits[(size_t)capacity * l + get_global_id(0)], i = hit_rays[k].x;
   const Scene s = scene_of(world, nodes, instances, infos, materials, faults);
   const RayLists rays = ray_lists(origins, directions, throughputs, media);
-  const uint i = hit_rays[k].x;
   const Surface f = surface_in(surfaces, k);
-  const PendingRay ray = {(float3)(0.0f), directions[i].xyz, (float3)(0.0f), depth, media_at(&rays, i)};
-  const float3 light = throughputs[i].xyz *
-                       lit_by_all(&s, positions, lights, view, &f, &materials[f.material], &ray);
+  const float3 lit = lit_from(&s, positions, &lights[l], &f, &materials[f.material], directions[i].xyz,
+                              media_at(&rays, i));
+  const float3 light = vec_global(tree[i].light) + lit;
   tree[i].light[0] = light.x;
   tree[i].light[1] = light.y;
   tree[i].light[2] = light.z;
 }
 
 // Adds a sample to each pixel, and divides by their number at the last.
-__kernel void sum_samples(__global const View* view, __global const RayNode* tree, __global float4* pixels,
+__kernel void sum_samples(__global const View* view, __global const float4* throughputs,
+                          __global const RayNode* tree, __global float4* pixels,
                           uint left, uint top, uint right, uint bottom, uint sample, uint count) {
   const uint i = (uint)get_global_id(0);
   if (i >= count) return;
@@ -170,7 +176,7 @@ __kernel void sum_samples(__global const View* view, __global const RayNode* tre
   float3 light = (float3)(0.0f);
   for (uint k = i;;) {
     const RayNode node = tree[k];
-    light = light + vec(node.light);
+    light = light + throughputs[k].xyz * vec(node.light);
     if (node.second != FACET_NONE) waiting[top_of++] = node.second;
     if (node.first != FACET_NONE)
       k = node.first;

@@ -133,17 +133,12 @@ static inline float3 unlit(__global const View* view, __global const Material* m
   return vec_global(m->Ke) + vec_global(m->Ka) * vec_global(view->ambient);
 }
 
-static inline float3 lit_by_all(const Scene* s, GEOMETRY positions, __global const Light* lights,
-                                __global const View* view, const Surface* f, __global const Material* m,
-                                const PendingRay* ray) {
-  float3 sum = unlit(view, m);
-  for (uint i = 0; i < view->light_count; ++i) {
-    Lighting to;
-    if (faces_light(s, &lights[i], f, m, ray->media, &to))
-      sum = sum + lit_by(&lights[i], &to, f, m, ray->direction,
-                         transmittance(s, &to.way, shadow_query(s, positions, &to.way)));
-  }
-  return sum;
+// What one light adds.
+static inline float3 lit_from(const Scene* s, GEOMETRY positions, __global const Light* light, const Surface* f,
+                              __global const Material* m, float3 d, Media media) {
+  Lighting to;
+  if (!faces_light(s, light, f, m, media, &to)) return (float3)(0.0f);
+  return lit_by(light, &to, f, m, d, transmittance(s, &to.way, shadow_query(s, positions, &to.way)));
 }
 
 static inline State resume(Path* p, const PendingRay* pending) {
@@ -173,7 +168,10 @@ static inline float4 radiance(const Scene* s, GEOMETRY positions, GEOMETRY norma
       case SHADE: {
         const Surface f = arrive(s, positions, normals, &q, &p.ray);
         __global const Material* m = &s->materials[f.material];
-        p.sum = p.sum + p.ray.throughput * lit_by_all(s, positions, lights, view, &f, m, &p.ray);
+        float3 lit = unlit(view, m);
+        for (uint i = 0; i < view->light_count; ++i)
+          lit = lit + lit_from(s, positions, &lights[i], &f, m, p.ray.direction, p.ray.media);
+        p.sum = p.sum + p.ray.throughput * lit;
         state = branch(s, &f, m, &p.ray, pending, &p.count, view->max_depth);
         break;
       }

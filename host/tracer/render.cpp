@@ -1,7 +1,6 @@
 // Pictures, tile by tile: device_scene::render.
 #include <algorithm>
 #include <functional>
-#include <optional>
 
 #include "scene/error.hpp"
 #include "scene/media.hpp"
@@ -88,8 +87,7 @@ picture device_scene::render(std::uint32_t width, std::uint32_t height, std::uin
     done.wait_and_throw();
     return done.milliseconds();
   };
-  std::optional<split_renderer> split;
-  if (s.is_split()) split.emplace(s, max_depth, total);
+  split_renderer* const split = s.is_split() ? &s.split_kernels(max_depth, total) : nullptr;
   std::uint64_t refused = 0, crowded = 0;
   std::map<std::string, double> parts_ms;
   const auto take_faults = [&] {
@@ -149,7 +147,7 @@ picture device_scene::render(std::uint32_t width, std::uint32_t height, std::uin
     s.describe(*stats);
     stats->kernel_ms = {kernel_ms};
     stats->rays = total * s.model.samples * s.model.samples;
-    stats->is_split = split.has_value();
+    stats->is_split = split;
     stats->parts_ms = parts_ms;
     stats->group_width = split ? s.tuned.split_render_group : group.width;
     stats->group_height = split ? 1 : group.height;

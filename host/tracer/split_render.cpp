@@ -28,7 +28,8 @@ split_renderer::split_renderer(device_scene::state& s, std::uint32_t max_depth,
       program_(
           compiled(s.queue, s.kernels, main_file,
                    traversal_options(s.used, s.model.nesting, s.chosen.tree, s.in_images,
-                                     s.geometry.is_wide, s.geometry.stack, max_depth, s.tuned))),
+                                     s.geometry.is_wide, s.geometry.stack, max_depth, s.tuned) +
+                       register_cap(s.tuned.split_registers))),
       eye_(program_.get_kernel("eye_rays")),
       trace_(program_.get_kernel("trace_rays")),
       shade_(program_.get_kernel("shade_rays")),
@@ -42,7 +43,8 @@ split_renderer::split_renderer(device_scene::state& s, std::uint32_t max_depth,
       media_(s.used.transparency ? capacity_ * s.model.nesting : 1),
       hit_rays_(capacity_),
       tree_(capacity_),
-      counts_(2 * (std::size_t(max_depth) + 1)) {}
+      lit_hits_(std::max<std::size_t>(1, s.model.lights.size()) * capacity_),
+      counts_(2 + s.model.lights.size()) {}
 
 kernel_description split_renderer::describe() const {
   return {runtime::expand(state_.kernels, main_file), program_.options(),
@@ -51,12 +53,13 @@ kernel_description split_renderer::describe() const {
 
 std::uint64_t split_renderer::capacity_for(std::uint64_t pixels) const {
   const runtime::device d = state_.queue.get_device();
-  const std::uint64_t each = 7 * sizeof(texel) + 8 + sizeof(RayNode) + 4 * state_.model.nesting;
+  const std::uint64_t each = 7 * sizeof(texel) + 8 + sizeof(RayNode) +
+                             4 * (state_.model.nesting + state_.model.lights.size());
   const std::uint64_t wanted =
       state_.chosen.split_rays ? state_.chosen.split_rays : pixels * rays_a_pixel;
-  const std::uint64_t most =
-      std::min({d.global_mem_size() / 8 / each, d.max_mem_alloc_size() / (3 * sizeof(texel)),
-                std::uint64_t(1) << 23});
+  const std::uint64_t largest = std::max(3 * sizeof(texel), 4 * state_.model.lights.size());
+  const std::uint64_t most = std::min(
+      {d.global_mem_size() / 8 / each, d.max_mem_alloc_size() / largest, std::uint64_t(1) << 23});
   return std::max(std::min(wanted, most), std::uint64_t(FACET_PACKET) * rays_a_pixel);
 }
 
@@ -64,6 +67,16 @@ std::uint32_t split_renderer::set_rays(runtime::handler& h, std::uint32_t k) {
   h.set_arg(k++, runtime::accessor{origins_, h, runtime::read_write});
   h.set_arg(k++, runtime::accessor{directions_, h, runtime::read_write});
   h.set_arg(k++, runtime::accessor{throughputs_, h, runtime::read_write});
+  h.set_arg(k++, runtime::accessor{media_, h, runtime::read_write});
+  h.set_arg(k++, runtime::accessor{tree_, h, runtime::read_write});
+  return k;
+}
+
+std::uint32_t split_renderer::set_surfaces(runtime::handler& h, std::uint32_t k) {
+  h.set_arg(k++, runtime::accessor{hit_rays_, h, runtime::read_only});
+  h.set_arg(k++, runtime::accessor{surfaces_, h, runtime::read_write});
+  h.set_arg(k++, runtime::accessor{lit_hits_, h, runtime::read_write});
+  h.set_arg(k++, runtime::accessor{counts_, h, runtime::read_write});
   return k;
 }
 
@@ -77,7 +90,6 @@ void split_renderer::eye_rays(const tile& t, std::uint32_t index, std::uint32_t 
     std::uint32_t k = 0;
     h.set_arg(k++, runtime::accessor{view, h, runtime::read_only});
     k = set_rays(h, k);
-    h.set_arg(k++, runtime::accessor{media_, h, runtime::read_write});
     for (const std::uint32_t x : {t.left, t.top, t.right, t.bottom, index, count})
       h.set_arg(k++, x);
     h.parallel_for(padded(count, group_), eye_);
@@ -86,10 +98,15 @@ void split_renderer::eye_rays(const tile& t, std::uint32_t index, std::uint32_t 
 
 void split_renderer::trace_rays(std::uint32_t depth, std::uint32_t first, std::uint32_t count,
                                 runtime::buffer<View>& view) {
+  run("fill", [&](runtime::handler& h) {
+    const runtime::accessor all{counts_, h, runtime::write_only};
+    h.fill(all, 0u);
+  });
   run("trace_rays " + std::to_string(depth), [&](runtime::handler& h) {
     std::uint32_t k = state_.set_geometry(h);
     h.set_arg(k++, runtime::accessor{view, h, runtime::read_only});
-    k = set_rays(h, k);
+    h.set_arg(k++, runtime::accessor{origins_, h, runtime::read_only});
+    h.set_arg(k++, runtime::accessor{directions_, h, runtime::read_only});
     h.set_arg(k++, runtime::accessor{tree_, h, runtime::read_write});
     h.set_arg(k++, runtime::accessor{hits_, h, runtime::read_write});
     h.set_arg(k++, runtime::accessor{hit_rays_, h, runtime::read_write});
@@ -103,32 +120,22 @@ void split_renderer::shade_rays(std::uint32_t depth, std::uint32_t hits, std::ui
                                 runtime::buffer<View>& view) {
   run("shade_rays " + std::to_string(depth), [&](runtime::handler& h) {
     std::uint32_t k = state_.set_normals(h, state_.set_geometry(h));
+    h.set_arg(k++, runtime::accessor{state_.lights, h, runtime::read_only});
     h.set_arg(k++, runtime::accessor{view, h, runtime::read_only});
     k = set_rays(h, k);
-    h.set_arg(k++, runtime::accessor{media_, h, runtime::read_write});
-    h.set_arg(k++, runtime::accessor{tree_, h, runtime::read_write});
     h.set_arg(k++, runtime::accessor{hits_, h, runtime::read_only});
-    h.set_arg(k++, runtime::accessor{hit_rays_, h, runtime::read_only});
-    h.set_arg(k++, runtime::accessor{surfaces_, h, runtime::read_write});
-    h.set_arg(k++, runtime::accessor{counts_, h, runtime::read_write});
+    k = set_surfaces(h, k);
     for (const std::uint32_t x : {depth, next, std::uint32_t(capacity_)}) h.set_arg(k++, x);
     h.parallel_for(padded(hits, group_), shade_);
   });
 }
 
-void split_renderer::light_rays(std::uint32_t depth, std::uint32_t hits,
-                                runtime::buffer<View>& view) {
+void split_renderer::light_rays(std::uint32_t depth, std::uint32_t hits, std::uint32_t light) {
   run("light_rays " + std::to_string(depth), [&](runtime::handler& h) {
     std::uint32_t k = state_.set_geometry(h);
     h.set_arg(k++, runtime::accessor{state_.lights, h, runtime::read_only});
-    h.set_arg(k++, runtime::accessor{view, h, runtime::read_only});
-    k = set_rays(h, k);
-    h.set_arg(k++, runtime::accessor{media_, h, runtime::read_write});
-    h.set_arg(k++, runtime::accessor{tree_, h, runtime::read_write});
-    h.set_arg(k++, runtime::accessor{hit_rays_, h, runtime::read_only});
-    h.set_arg(k++, runtime::accessor{surfaces_, h, runtime::read_only});
-    h.set_arg(k++, runtime::accessor{counts_, h, runtime::read_only});
-    h.set_arg(k++, depth);
+    k = set_surfaces(h, set_rays(h, k));
+    for (const std::uint32_t x : {light, std::uint32_t(capacity_)}) h.set_arg(k++, x);
     h.parallel_for(padded(hits, group_), light_);
   });
 }
@@ -138,6 +145,7 @@ void split_renderer::sum_samples(const tile& t, std::uint32_t index, std::uint32
   run("sum_samples", [&](runtime::handler& h) {
     std::uint32_t k = 0;
     h.set_arg(k++, runtime::accessor{view, h, runtime::read_only});
+    h.set_arg(k++, runtime::accessor{throughputs_, h, runtime::read_only});
     h.set_arg(k++, runtime::accessor{tree_, h, runtime::read_only});
     h.set_arg(k++, runtime::accessor{pixels, h, runtime::read_write});
     for (const std::uint32_t x : {t.left, t.top, t.right, t.bottom, index, count})
@@ -150,20 +158,16 @@ void split_renderer::sum_samples(const tile& t, std::uint32_t index, std::uint32
 bool split_renderer::sample(const tile& t, std::uint32_t index, runtime::buffer<View>& view,
                             runtime::buffer<texel>& pixels) {
   const auto eyes = std::uint32_t(places(t));
-  run("fill", [&](runtime::handler& h) {
-    const runtime::accessor all{counts_, h, runtime::write_only};
-    h.fill(all, 0u);
-  });
   eye_rays(t, index, eyes, view);
   std::uint32_t first = 0, count = eyes;
   for (std::uint32_t depth = 0; depth <= max_depth_ && count > 0; ++depth) {
     trace_rays(depth, first, count, view);
     shade_rays(depth, count, first + count, view);
-    light_rays(depth, count, view);
+    for (std::uint32_t l = 0; l < state_.model.lights.size(); ++l) light_rays(depth, count, l);
     first += count;
     if (depth == max_depth_) break;
     const runtime::host_accessor counts{counts_, runtime::read_only};
-    count = counts[2 * depth + 1];
+    count = counts[1];
     if (count > capacity_ - first) return false;
   }
   sum_samples(t, index, eyes, view, pixels);

@@ -20,6 +20,11 @@ class split_renderer {
   /// not that much to spare.
   split_renderer(device_scene::state& s, std::uint32_t max_depth, std::uint64_t pixels);
 
+  /// Whether another would be no better for such a picture.
+  bool suffices(std::uint32_t max_depth, std::uint64_t pixels) const {
+    return max_depth == max_depth_ && capacity_for(pixels) <= capacity_;
+  }
+
   /// The most pixels of a tile.
   std::uint64_t most_pixels() const { return capacity_ / rays_a_pixel; }
 
@@ -43,10 +48,11 @@ class split_renderer {
                   runtime::buffer<View>& view);
   void shade_rays(std::uint32_t depth, std::uint32_t hits, std::uint32_t next,
                   runtime::buffer<View>& view);
-  void light_rays(std::uint32_t depth, std::uint32_t hits, runtime::buffer<View>& view);
+  void light_rays(std::uint32_t depth, std::uint32_t hits, std::uint32_t light);
   void sum_samples(const tile& t, std::uint32_t index, std::uint32_t count,
                    runtime::buffer<View>& view, runtime::buffer<texel>& pixels);
   std::uint32_t set_rays(runtime::handler& h, std::uint32_t k);
+  std::uint32_t set_surfaces(runtime::handler& h, std::uint32_t k);
   void run(std::string name, const std::function<void(runtime::handler&)>& group);
 
   device_scene::state& state_;
@@ -58,7 +64,8 @@ class split_renderer {
   runtime::buffer<std::uint32_t> media_;
   runtime::buffer<std::array<std::uint32_t, 2>> hit_rays_;
   runtime::buffer<RayNode> tree_;
-  runtime::buffer<std::uint32_t> counts_;
+  runtime::buffer<std::uint32_t> lit_hits_;
+  runtime::buffer<std::uint32_t> counts_;                     ///< of a depth (cl/render_split.cl)
   std::vector<std::pair<std::string, runtime::event>> done_;  ///< of the tile under way
 };
 

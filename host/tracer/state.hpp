@@ -1,6 +1,7 @@
 // What a device_scene holds between calls.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -9,6 +10,8 @@
 #include "tracer/tree.hpp"
 
 namespace facet::tracer {
+
+class split_renderer;
 
 struct device_scene::state {
   runtime::queue queue;
@@ -26,13 +29,15 @@ struct device_scene::state {
   runtime::buffer<Faults> faults;
   std::optional<runtime::program> trace_program, render_program, probe_program;
   std::uint32_t render_stack = 0;  ///< entries of pending rays that render_program was built for
+  std::shared_ptr<split_renderer> split = nullptr;  ///< of the last picture by several kernels
 
   /// Compiles on first use, and again where a deeper picture needs a larger stack of pending rays.
   runtime::kernel trace_kernel(bool any);
   runtime::kernel render_kernel(std::uint32_t max_depth);
   const char* render_file() const;
-  /// Whether the next picture is made by several kernels.
+  /// Whether the next picture is made by several kernels; they, for so many pixels at once.
   bool is_split() const;
+  split_renderer& split_kernels(std::uint32_t max_depth, std::uint64_t pixels);
   runtime::kernel probe_kernel(const char* name);
 
   /// Sets a kernel's first arguments, those of every traversal (cl/trace.cl, cl/render.cl).

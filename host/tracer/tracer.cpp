@@ -122,7 +122,7 @@ void device_scene::leave_work_group_to_driver() { state_->chosen.driver_group = 
 
 kernel_description device_scene::describe_render(std::uint32_t max_depth) {
   state& s = *state_;
-  if (s.is_split()) return split_renderer(s, max_depth, 1).describe();
+  if (s.is_split()) return s.split_kernels(max_depth, 1).describe();
   const runtime::kernel kernel = s.render_kernel(max_depth);
   return {runtime::expand(s.kernels, s.render_file()), s.render_program->options(),
           kernel.work_group_size(s.queue.get_device())};
@@ -152,6 +152,14 @@ bool device_scene::state::is_split() const {
   if (chosen.split != split_kind::automatic) return chosen.split == split_kind::on;
   // A work-group that was asked for is that of the kernel for whole pixels.
   return tuned.split_render && chosen.group_width == 0 && !chosen.driver_group;
+}
+
+split_renderer& device_scene::state::split_kernels(std::uint32_t max_depth, std::uint64_t pixels) {
+  if (!split || !split->suffices(max_depth, pixels)) {
+    split.reset();  // its memory is free before more is asked for
+    split = std::make_shared<split_renderer>(*this, max_depth, pixels);
+  }
+  return *split;
 }
 
 const char* device_scene::state::render_file() const {

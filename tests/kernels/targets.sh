@@ -36,6 +36,7 @@ for target in spir64-unknown-unknown nvptx64-nvidia-nvcl amdgcn-amd-amdhsa; do
     is_outer "$set" ${#flags[@]} || as=check
     [[ $as == code || $target == spir64* ]] || continue
     echo "$target $as render.cl$options"
+    [[ $as == check ]] || echo "$target $as render_split.cl$options"
     echo "$target $as trace.cl$options"
   done
   # What render.cl is made of, asked one by one: with everything, and with all left out.
@@ -81,7 +82,7 @@ for ranking in "" " -DFACET_SORT_MATCH"; do
     done
   done
 done >> "$jobs"
-for kernel in look_back.cl trace.cl render.cl "trace.cl -DFACET_NO_INSTANCES"; do
+for kernel in look_back.cl trace.cl render.cl render_split.cl "trace.cl -DFACET_NO_INSTANCES"; do
   echo "nvptx64-nvidia-nvcl code $kernel -DFACET_PTX"
 done >> "$jobs"
 
