@@ -47,8 +47,8 @@ static inline RayNode ray_node(float3 light, float alpha) {
   return n;
 }
 
-// How far a list has grown that all groups append to: where this work-item's `mine` entries go. All of a group
-// come here.
+// Where this work-item's `mine` entries go in a list that all groups append to, whose length grows by them. All of a
+// group come here.
 static inline uint appended(uint mine, __local uint* pool, volatile __global uint* length) {
   const bool is_first = get_local_id(0) == 0;
   if (is_first) pool[0] = 0u;

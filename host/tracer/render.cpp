@@ -137,11 +137,9 @@ picture device_scene::render(std::uint32_t width, std::uint32_t height, std::uin
     if (on_progress) on_progress(done, total);
   }
   picture result(width, height);
-  {
-    const runtime::host_accessor read{pixels, runtime::read_only};
-    for (std::size_t i = 0; i < total; ++i)
-      std::copy(read[i].begin(), read[i].end(), result.rgba.begin() + std::ptrdiff_t(4 * i));
-  }
+  pixels.set_final_data(reinterpret_cast<texel*>(result.rgba.data()));
+  pixels = runtime::buffer<texel>(1);  // the picture's memory goes, and is copied there first
+  s.queue.throw_asynchronous();
   if (stats) {
     *stats = {};
     s.describe(*stats);

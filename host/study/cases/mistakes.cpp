@@ -117,9 +117,9 @@ mistake unchecked_refraction() {
 }
 
 mistake reversed_media() {
-  return of("reversed-media", "entering a medium counts as leaving it",
-            {{"query.h", "is_front ? t_end - t : -(t_end - t)",
-              "is_front ? -(t_end - t) : t_end - t"}});
+  return of(
+      "reversed-media", "entering a medium counts as leaving it",
+      {{"query.h", "is_front ? t_end - t : -(t_end - t)", "is_front ? -(t_end - t) : t_end - t"}});
 }
 
 mistake unchecked_normals() {
