@@ -240,7 +240,8 @@ static inline void search_packet(const Scene* s, GEOMETRY positions, PacketSpace
                                  PacketPart* part) {
   ulong stack[FACET_STACK + 1];
   int top = 0;
-  uint child = s->root, rays = ~0u >> (32u - FACET_PACKET);
+  uint child = s->root, rays = 0u;
+  for (uint k = 0u; k < FACET_PARTS; ++k) rays |= lanes_of(part[k].tmin <= part[k].t) << FACET_LANES * k;
   float best = best_of(part);
   PacketSpace* space = world;
 #ifdef FACET_NO_INSTANCES

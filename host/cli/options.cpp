@@ -121,7 +121,8 @@ void add_split(CLI::App& app, tracer::options& target) {
        {"on", tracer::split_kind::on},
        {"off", tracer::split_kind::off}},
       "A picture's rays of one depth are traced and shaded by launches of their own, or a\n"
-      "pixel's all by one work-item (default auto: on GPUs, unless a work-group is given)");
+      "pixel's all by one work-item (default auto: on GPUs, if rays are reflected or\n"
+      "refracted, and unless a work-group is given)");
 }
 
 void refuse_with_serial(const CLI::App& app, std::initializer_list<const char*> names) {

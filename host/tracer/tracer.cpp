@@ -150,8 +150,10 @@ runtime::kernel device_scene::state::render_kernel(std::uint32_t max_depth) {
 
 bool device_scene::state::is_split() const {
   if (chosen.split != split_kind::automatic) return chosen.split == split_kind::on;
-  // A work-group that was asked for is that of the kernel for whole pixels.
-  return tuned.split_render && chosen.group_width == 0 && !chosen.driver_group;
+  // A work-group that was asked for is that of the kernel for whole pixels. It is also the faster
+  // one where no ray follows another.
+  return tuned.split_render && (used.reflection || used.transparency) && chosen.group_width == 0 &&
+         !chosen.driver_group;
 }
 
 split_renderer& device_scene::state::split_kernels(std::uint32_t max_depth, std::uint64_t pixels) {
