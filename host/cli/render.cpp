@@ -135,6 +135,10 @@ int run(const arguments& o) {
   if (o.tracing.serial())
     refuse_with_serial(*o.app, {"--tree", "--packets", "--split", "--geometry", "--kernels",
                                 "--all-features", "--work-group", "--tile-size"});
+  if (o.tracing.tracer.split == tracer::split_kind::on && o.app->count("--work-group") > 0)
+    throw usage_error(
+        "--work-group is that of the kernel for whole pixels, which --split on does not use; leave "
+        "one of them out");
   check_outputs(o);
   const scene s = load_scene(o.scene);
   o.say.notes(s.notes);
