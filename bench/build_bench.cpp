@@ -160,7 +160,7 @@ void print(const json& row) {
 /// All contestants' rows of one mesh.
 std::vector<json> measure(const settings& o, const std::string& path, const runtime::queue& queue,
                           bool with_peer) {
-  const std::string mesh = path.substr(path.find_last_of('/') + 1);
+  const std::string mesh = name_of(path);
   const scene s = scene_of(load_workload(path));
   std::optional<embree_builder> peer;
   if (with_peer) peer.emplace(s.meshes[0], o.threads);
@@ -189,7 +189,7 @@ json kept_row(const settings& o, const std::string& path, const runtime::queue& 
   std::vector<double> seconds;
   for (unsigned i = 0; i < o.repeat; ++i) seconds.push_back(k.build());
   const auto triangles = double(s.triangle_count());
-  json row{{"mesh", path.substr(path.find_last_of('/') + 1)},
+  json row{{"mesh", name_of(path)},
            {"triangles", s.triangle_count()},
            {"builder", "binned"},
            {"build", rates(seconds, triangles)},

@@ -122,7 +122,7 @@ void run(const settings& o) {
       "other than strict\n");
   const std::vector<ray> primary = primary_rays();
   for (const std::string& path : o.meshes) {
-    const std::string name = path.substr(path.find_last_of('/') + 1);
+    const std::string name = name_of(path);
     const scene s = scene_of(load_workload(path));
     std::vector<entry> all;
     tracer::options options;

@@ -91,7 +91,7 @@ void run(const arguments& o) {
   report["results"] = json::array();
   std::printf("ms by the host's clock: median (least-most); the first run allocates\n");
   for (const std::string& path : o.meshes) {
-    const std::string name = path.substr(path.find_last_of('/') + 1);
+    const std::string name = name_of(path);
     const mesh m = load_workload(path);
     const fold_times t = measure(queue, m, o.repeat, o.flags);
     json row{{"mesh", name},

@@ -7,6 +7,7 @@
 #include "bench/measure.hpp"
 #include "bench/result_file.hpp"
 #include "bench/rows.hpp"
+#include "bench/workload.hpp"
 #include "reference/tracer.hpp"
 #include "runtime/runtime.hpp"
 #include "scene/load.hpp"
@@ -38,7 +39,7 @@ json told(const study::explanation& e) {
 json measure(const std::string& path, runtime::queue& queue, const settings& o) {
   const scene s = load_scene(path);
   const std::uint32_t width = o.width ? o.width : s.width;
-  const auto height = std::uint32_t(std::max(1.0, double(width) * s.height / s.width + 0.5));
+  const std::uint32_t height = height_for(s, width);
   const reference::tracer<float> single(s);
   const reference::tracer<double> oracle(s);
   tracer::device_scene ours(queue, s);
@@ -57,7 +58,7 @@ json measure(const std::string& path, runtime::queue& queue, const settings& o) 
 
   const auto device_time = study::summarize(device_s), serial_time = study::summarize(serial_s),
              ratio = study::summarize(ratios);
-  const std::string name = path.substr(path.find_last_of('/') + 1);
+  const std::string name = name_of(path);
   std::printf("%-22s %5ux%-5u %8.3f %8.3f  %5.2f (%.2f-%.2f)  %6zu %6zu  %6zu %6zu\n", name.c_str(),
               width, height, device_time.median, serial_time.median, ratio.median, ratio.least,
               ratio.most, against_float.off.size(), std::size_t(against_float.unexplained()),

@@ -85,7 +85,7 @@ void run(const settings& o) {
               peer_name.empty() ? "" : "; Embree; ratio; hit in one and miss in the other");
   const std::vector<ray> primary = primary_rays();
   for (const std::string& path : names) {
-    const std::string name = path.substr(path.find_last_of('/') + 1);
+    const std::string name = name_of(path);
     const scene s = scene_of(load_workload(path));
     std::unique_ptr<reference::tracer<float>> ours;
     const double build = seconds([&] { ours = std::make_unique<reference::tracer<float>>(s); });

@@ -7,6 +7,7 @@
 #include "bench/result_file.hpp"
 #include "bench/rows.hpp"
 #include "bench/still_life.hpp"
+#include "bench/workload.hpp"
 #include "runtime/runtime.hpp"
 #include "scene/load.hpp"
 #include "scene/read_obj.hpp"
@@ -61,8 +62,7 @@ struct shape {
 
 shape shape_of(const scene& s, const settings& o) {
   const std::uint32_t width = o.width ? o.width : s.width;
-  return {width, std::uint32_t(std::max(1.0, double(width) * s.height / s.width + 0.5)),
-          o.depth < 0 ? s.max_depth : std::uint32_t(o.depth)};
+  return {width, height_for(s, width), o.depth < 0 ? s.max_depth : std::uint32_t(o.depth)};
 }
 
 json spread(const std::vector<double>& ms) {
@@ -156,9 +156,6 @@ void run(const settings& o) {
       "compiled "
       "in milliseconds; pixels that are not the first way's\n");
   bool are_same = true;
-  const auto name_of = [](const std::string& path) {
-    return path.substr(path.find_last_of('/') + 1);
-  };
   for (const std::string& path : o.scenes)
     are_same &= measure(load_scene(path), name_of(path), queue, o, report["results"]);
   for (const std::string& path : o.meshes)

@@ -19,6 +19,8 @@ nlohmann::ordered_json peer_of(const std::string& name, unsigned threads) {
   return {{"name", name}, {"threads", threads}};
 }
 
+std::string name_of(const std::string& path) { return path.substr(path.find_last_of('/') + 1); }
+
 void write_result(const std::string& path, const nlohmann::ordered_json& content) {
   image::write_file(path, study::json_text(content));
 }

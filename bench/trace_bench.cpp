@@ -131,7 +131,7 @@ void run(const settings& o) {
           : "; of each way to ask Embree: its rate; ratio; hit in one and miss in the other");
   const std::vector<ray> primary = primary_rays();
   for (const std::string& path : o.meshes) {
-    const std::string name = path.substr(path.find_last_of('/') + 1);
+    const std::string name = name_of(path);
     const scene s = scene_of(load_workload(path));
     std::vector<tracer::given_tree> given;
     if (maker && !maker->kind)

@@ -79,6 +79,10 @@ scene scene_of(mesh m) {
   return s;
 }
 
+std::uint32_t height_for(const scene& s, std::uint32_t width) {
+  return std::uint32_t(std::max(1.0, double(width) * s.height / s.width + 0.5));
+}
+
 std::vector<ray> primary_rays(int width, int height) {
   const auto w = float(width), h = float(height);
   const vec3f eye{0.75f, 0.55f, 1.05f}, at{0, -0.02f, 0};

@@ -26,6 +26,9 @@ mesh load_workload(const std::string& name);
 /// The mesh alone: one instance under the identity, one material.
 scene scene_of(mesh m);
 
+/// Pixels, so that a picture of that width has the scene's own aspect ratio.
+std::uint32_t height_for(const scene& s, std::uint32_t width);
+
 /// Tile by tile, so that each tile_rays rays are neighbours. The width is a multiple of 8, the
 /// height one of 4.
 std::vector<ray> primary_rays(int width = picture_width, int height = picture_height);

@@ -26,6 +26,7 @@ struct FACET_ALIGNED Node {
 // pixels wide.
 #define FACET_PACKET 32u
 #define FACET_PACKET_COLUMNS 8u
+#define FACET_PACKET_ROWS (FACET_PACKET / FACET_PACKET_COLUMNS)
 
 // As Node. A leaf is one block of triangles, or one instance. An absent child has bounds that no ray
 // meets: lo = INFINITY, hi = -INFINITY.

@@ -4,8 +4,6 @@
 #include "states.h"
 #include "together.h"
 
-#define FACET_PACKET_ROWS (FACET_PACKET / FACET_PACKET_COLUMNS)
-
 // Paths of pixels of one work-item, those in `which`, each until its end.
 typedef struct {
   Path path[FACET_PACKET];

@@ -16,12 +16,12 @@
 #include "states.h"
 
 #define COLUMNS FACET_PACKET_COLUMNS
-#define ROWS (FACET_PACKET / FACET_PACKET_COLUMNS)
 
 // The pixel of ray i, in a tile that is so many blocks wide.
 static inline uint2 pixel_of(uint i, uint left, uint top, uint across) {
   const uint block = i / FACET_PACKET, k = i % FACET_PACKET;
-  return (uint2)(left + COLUMNS * (block % across) + k % COLUMNS, top + ROWS * (block / across) + k / COLUMNS);
+  return (uint2)(left + COLUMNS * (block % across) + k % COLUMNS,
+                 top + FACET_PACKET_ROWS * (block / across) + k / COLUMNS);
 }
 
 // A pixel beyond the tile has no ray: its direction is 0.

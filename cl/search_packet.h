@@ -65,6 +65,17 @@ static inline void put_place(PacketPart* p, Mask where, uint place) {
 #endif
 }
 
+// What a lane has found so far, as the search of a ray by itself has it before its end.
+static inline Query found_in_lane(const PacketPart* p, uint lane) {
+  Query q;
+  q.t = stored_lane(&p->t, lane);
+  q.slot = ((const uint*)&p->slot)[lane];
+  q.place = place_in_lane(p, lane);
+  q.u = q.v = 0.0f;
+  q.instance = q.triangle = FACET_NONE;
+  return q;
+}
+
 // Of the lanes in `tied`, which meet a triangle at their best hit's distance, those that keep their best hit.
 SELDOM Mask keep_of(const Scene* s, const PacketPart* p, uint place, uint slot, uint tied) {
   int keep[FACET_LANES] = {0};
@@ -126,11 +137,7 @@ SELDOM void search_alone(const Scene* s, GEOMETRY positions, uint node, const Pa
     outer.far = stored_lane(&in->outer[part].far, lane);
   }
 #endif
-  Query q;
-  q.t = t[lane];
-  q.place = place_in_lane(p, lane);
-  q.slot = slot[lane];
-  q.triangle = FACET_NONE;
+  Query q = found_in_lane(p, lane);
 #ifndef FACET_NO_TRANSPARENCY
   if (mode == FACET_CROSSINGS) {
     q.t_end = stored_lane(&p->t_end, lane);
@@ -284,12 +291,7 @@ static inline void search_packet(const Scene* s, GEOMETRY positions, PacketSpace
 // The hit that a lane has met, its shares computed anew. `world` has the lane's rays there.
 static inline Query met_in_lane(const Scene* s, GEOMETRY positions, const PacketPart* p, const Rays* world,
                                 uint lane) {
-  Query q;
-  q.t = stored_lane(&p->t, lane);
-  q.slot = ((const uint*)&p->slot)[lane];
-  q.place = place_in_lane(p, lane);
-  q.u = q.v = 0.0f;
-  q.instance = q.triangle = FACET_NONE;
+  Query q = found_in_lane(p, lane);
   Space space = space_in_lane(world, lane);
   finish(s, positions, point_in_lane(&p->o, lane), point_in_lane(&p->d, lane), &space, &q);
   return q;

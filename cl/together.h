@@ -57,12 +57,7 @@ static inline Query query_in_lane(const Scene* s, GEOMETRY positions, const Pack
                                   const PacketPart* part, uint i, uint mode) {
   const PacketPart* p = &part[i / FACET_LANES];
   const uint lane = i % FACET_LANES;
-  Query q;
-  q.t = stored_lane(&p->t, lane);
-  q.slot = ((const uint*)&p->slot)[lane];
-  q.place = place_in_lane(p, lane);
-  q.u = q.v = 0.0f;
-  q.instance = q.triangle = FACET_NONE;
+  Query q = found_in_lane(p, lane);
   if (mode == FACET_CLOSEST) {
     const float det = stored_lane(&p->det, lane);
     if (q.slot == FACET_NONE) return q;

@@ -12,8 +12,6 @@
 namespace facet::tracer {
 namespace {
 
-constexpr std::uint32_t packet_rows = FACET_PACKET / FACET_PACKET_COLUMNS;
-
 struct group_size {
   std::uint32_t width, height;  ///< work-items; 0 x 0: the driver chooses
 };
@@ -32,7 +30,7 @@ struct item_size {
 };
 
 item_size item_of(bool in_packets) {
-  return in_packets ? item_size{FACET_PACKET_COLUMNS, packet_rows} : item_size{1, 1};
+  return in_packets ? item_size{FACET_PACKET_COLUMNS, FACET_PACKET_ROWS} : item_size{1, 1};
 }
 
 /// The tile padded to whole work-groups; the kernel guards.
@@ -107,12 +105,12 @@ picture device_scene::render(std::uint32_t width, std::uint32_t height, std::uin
     // More rays than there is room for: again in parts, the smallest by the kernel that needs no
     // room.
     s.clear_faults();
-    if (t.width() <= FACET_PACKET_COLUMNS && t.height() <= packet_rows) {
+    if (t.width() <= FACET_PACKET_COLUMNS && t.height() <= FACET_PACKET_ROWS) {
       const double alone = by_one_kernel(t);
       take_faults();
       return alone;
     }
-    const auto [first, second] = halves(t, FACET_PACKET_COLUMNS, packet_rows);
+    const auto [first, second] = halves(t, FACET_PACKET_COLUMNS, FACET_PACKET_ROWS);
     return render_tile(first) + render_tile(second);
   };
 
@@ -147,7 +145,7 @@ picture device_scene::render(std::uint32_t width, std::uint32_t height, std::uin
     stats->rays = total * s.model.samples * s.model.samples;
     stats->is_split = split;
     stats->parts_ms = parts_ms;
-    stats->group_width = split ? s.tuned.split_render_group : group.width;
+    stats->group_width = split ? s.tuned.group : group.width;
     stats->group_height = split ? 1 : group.height;
     if (split) stats->rays_a_work_item = 1;
     stats->tiles = tiles;

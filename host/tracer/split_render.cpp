@@ -9,12 +9,10 @@ namespace {
 
 constexpr const char* main_file = "render_split.cl";
 
-constexpr std::uint32_t columns = FACET_PACKET_COLUMNS, rows = FACET_PACKET / FACET_PACKET_COLUMNS;
-
 /// Places of a tile's eye rays: whole blocks of pixels.
 std::uint64_t places(const tile& t) {
-  return std::uint64_t((t.width() + columns - 1) / columns) * ((t.height() + rows - 1) / rows) *
-         FACET_PACKET;
+  return std::uint64_t((t.width() + FACET_PACKET_COLUMNS - 1) / FACET_PACKET_COLUMNS) *
+         ((t.height() + FACET_PACKET_ROWS - 1) / FACET_PACKET_ROWS) * FACET_PACKET;
 }
 
 }  // namespace
@@ -23,13 +21,13 @@ split_renderer::split_renderer(device_scene::state& s, std::uint32_t max_depth,
                                std::uint64_t pixels)
     : state_(s),
       max_depth_(max_depth),
-      group_(s.tuned.split_render_group),
+      group_(s.tuned.group),
       capacity_(capacity_for(pixels)),
       program_(
           compiled(s.queue, s.kernels, main_file,
                    traversal_options(s.used, s.model.nesting, s.chosen.tree, s.in_images,
                                      s.geometry.is_wide, s.geometry.stack, max_depth, s.tuned) +
-                       register_cap(s.tuned.split_registers))),
+                       register_cap(s.tuned.trace_registers))),
       eye_(program_.get_kernel("eye_rays")),
       trace_(program_.get_kernel("trace_rays")),
       shade_(program_.get_kernel("shade_rays")),

@@ -24,7 +24,7 @@ tuning tuning_for(const runtime::device& d) {
   t.sort = sort_tuning_for(d);
   t.bounds_groups = 4 * d.max_compute_units();
   // The compiler takes 61 by itself, and 2% more time: the cap changes its order of instructions.
-  if (d.nvidia_compute_capability() > 0) t.trace_registers = t.split_registers = 64;
+  if (d.nvidia_compute_capability() > 0) t.trace_registers = 64;
   t.warps = d.nvidia_compute_capability() >= 70;
   if (d.is_gpu()) {
     t.bounds_group = 256;

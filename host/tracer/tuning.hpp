@@ -14,8 +14,6 @@ struct tuning {
   std::uint32_t packet_group = 4;  ///< of those whose work-items take packets
   std::uint32_t render_group_width = 8,
                 render_group_height = 8;  ///< the render kernel's work-group
-  std::uint32_t split_render_group = 64;  ///< of the kernels of cl/render_split.cl
-  std::uint32_t split_registers = 0;      ///< of those, too
   std::uint32_t leaf_sure = 2;    ///< triangles: a subtree of at most so many is a leaf, ...
   std::uint32_t leaf_size = 4;    ///< ... of more than so many not (1 to 16)
   std::uint32_t block_run = 256;  ///< blocks of the wide layout that a work-item makes
@@ -32,7 +30,7 @@ struct tuning {
   bool split_render = false;          ///< what split_kind::automatic means
   bool hardware_minmax = false;       ///< cl/device.h
   bool warps = false;                 ///< PTX of sm_70 can be written (cl/warp.h)
-  std::uint32_t trace_registers = 0;  ///< of trace.cl's kernels (register_cap)
+  std::uint32_t trace_registers = 0;  ///< of trace.cl's and render_split.cl's (register_cap)
   bool correctly_rounded = false;     ///< the device can be asked for exact divide and sqrt
 
   std::string more_flags;  ///< as options::compiler_flags has them
