@@ -19,24 +19,20 @@ Box box_of(const Instance& i) {
 }  // namespace
 
 node_trees::node_trees(const runtime::queue& q, const runtime::source_tree& kernels,
-                       const tuning& t, tree_kind kind, leaf_rule leaves)
-    : queue_(q), kernels_(kernels), tuning_(t), leaves_(leaves), cut_(q, kernels, t) {
-  if (kind == tree_kind::binned)
-    binned_.emplace(q, kernels, t, leaves);
-  else
-    levels_.emplace(q, kernels, t);
-}
+                       const tuning& t, tree_kind kind, leaf_rule leaves, bool in_order)
+    : queue_(q),
+      kernels_(kernels),
+      tuning_(t),
+      leaves_(leaves),
+      kind_(kind),
+      over_triangles_(q, kernels, t, kind, leaves, in_order),
+      cut_(q, kernels, t) {}
 
-node_tree node_trees::over_triangles(runtime::buffer<texel>& corners, std::uint32_t count) {
-  if (binned_) {
-    node_tree tree;
-    binned_->build(corners, count, tree);
-    return tree;
-  }
-  runtime::buffer<Box> boxes = levels_->boxes_of(corners, count);
-  const binary_tree tree = levels_->build(boxes, count);
-  boxes = runtime::buffer<Box>(1);  // the tree has them in its leaves
-  return cut_.cut(tree, leaves_);
+node_tree node_trees::over_triangles(runtime::buffer<texel>& corners, std::uint32_t count,
+                                     const leaf_triangles* sorted) {
+  node_tree tree;
+  over_triangles_.build(corners, count, tree, sorted);
+  return tree;
 }
 
 node_tree node_trees::over_instances(const std::vector<Instance>& placed) {
@@ -44,11 +40,9 @@ node_tree node_trees::over_instances(const std::vector<Instance>& placed) {
   boxes.reserve(placed.size());
   for (const Instance& i : placed) boxes.push_back(box_of(i));
   runtime::buffer<Box> on_device(boxes.data(), boxes.size());
-  const auto count = std::uint32_t(boxes.size());
-  if (levels_) return cut_.cut(levels_->build(on_device, count), one_each);
-  if (!binned_boxes_) binned_boxes_.emplace(queue_, kernels_, tuning_, one_each);
+  if (!over_boxes_) over_boxes_.emplace(queue_, kernels_, tuning_, kind_, one_each);
   node_tree tree;
-  binned_boxes_->build(on_device, count, tree);
+  over_boxes_->build(on_device, std::uint32_t(boxes.size()), tree);
   return tree;
 }
 
@@ -60,14 +54,9 @@ node_tree node_trees::from(const given_tree& given, std::span<const texel> corne
                   leaves_);
 }
 
-std::uint64_t node_trees::scratch_bytes(std::uint64_t triangles, tree_kind kind) {
-  if (kind == tree_kind::binned) return tree_builder<texel>::scratch_bytes(triangles);
-  return levels_builder::scratch_bytes(triangles) + tree_cutter::scratch_bytes(triangles);
-}
-
 double node_trees::compile_ms() const {
-  return cut_.compile_ms() + (levels_ ? levels_->compile_ms() : 0) +
-         (binned_ ? binned_->compile_ms() : 0) + (binned_boxes_ ? binned_boxes_->compile_ms() : 0);
+  return cut_.compile_ms() + over_triangles_.compile_ms() +
+         (over_boxes_ ? over_boxes_->compile_ms() : 0);
 }
 
 }  // namespace facet::tracer

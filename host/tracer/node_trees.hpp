@@ -8,7 +8,6 @@
 
 #include "runtime/runtime.hpp"
 #include "tracer/cut_tree.hpp"
-#include "tracer/levels.hpp"
 #include "tracer/node_tree.hpp"
 #include "tracer/pack.hpp"
 #include "tracer/tracer.hpp"
@@ -19,12 +18,15 @@ namespace facet::tracer {
 
 class node_trees {
  public:
-  /// kind: not tree_kind::none. leaves: of triangles; an instance is a leaf of its own.
+  /// kind: not tree_kind::none. leaves: of triangles; an instance is a leaf of its own. in_order:
+  /// triangles are put into leaf order, too.
   node_trees(const runtime::queue& q, const runtime::source_tree& kernels, const tuning& t,
-             tree_kind kind, leaf_rule leaves);
+             tree_kind kind, leaf_rule leaves, bool in_order = false);
 
   /// Over the triangles at corners[3i..3i+2], i < count; count > 0.
-  node_tree over_triangles(runtime::buffer<texel>& corners, std::uint32_t count);
+  /// sorted: given if they are put into order.
+  node_tree over_triangles(runtime::buffer<texel>& corners, std::uint32_t count,
+                           const leaf_triangles* sorted = nullptr);
   /// Over the bounds of placed meshes, at least one.
   node_tree over_instances(const std::vector<Instance>& placed);
   /// A caller's tree over those triangles. Throws runtime::exception (invalid) if it is none.
@@ -32,7 +34,9 @@ class node_trees {
 
   /// Device memory that over_triangles takes at its peak, the corners apart; what it gives
   /// included.
-  static std::uint64_t scratch_bytes(std::uint64_t triangles, tree_kind kind);
+  static std::uint64_t scratch_bytes(std::uint64_t triangles) {
+    return tree_builder<texel>::scratch_bytes(triangles);
+  }
 
   double compile_ms() const;
 
@@ -41,9 +45,9 @@ class node_trees {
   const runtime::source_tree& kernels_;
   tuning tuning_;
   leaf_rule leaves_;
-  std::optional<levels_builder> levels_;
-  std::optional<tree_builder<texel>> binned_;
-  std::optional<tree_builder<Box>> binned_boxes_;
+  tree_kind kind_;
+  tree_builder<texel> over_triangles_;
+  std::optional<tree_builder<Box>> over_boxes_;  ///< once there are instances
   tree_cutter cut_;
 };
 

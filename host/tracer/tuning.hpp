@@ -21,7 +21,7 @@ struct tuning {
   std::uint32_t bounds_group = 16,
                 bounds_groups = 64;  ///< of the kernels of cl/morton.cl; a power of 2
   bool serial_trees = true;  ///< a work-item builds a tree alone (cl/serial_tree.cl), not a group
-  std::uint32_t list_group = 64, list_each = 32,
+  std::uint32_t list_group = 1, list_each = 1024,
                 scan_group = 1;       ///< of cl/subtrees.cl; powers of 2
   std::uint32_t split_group = 64;     ///< that splits a range of the top tree; at least 64
   bool image_geometry = false;        ///< what --geometry auto means
@@ -34,6 +34,10 @@ struct tuning {
   bool correctly_rounded = false;     ///< the device can be asked for exact divide and sqrt
 
   std::string more_flags;  ///< as options::compiler_flags has them
+
+  /// Trees are built by groups, as on GPUs, or by single work-items, as on CPUs.
+  void build_in_groups();
+  void build_alone();
 
   /// Options for the compiler, each with a space before it.
   std::string flags() const;
