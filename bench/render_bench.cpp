@@ -6,7 +6,6 @@
 
 #include "bench/result_file.hpp"
 #include "bench/rows.hpp"
-#include "bench/still_life.hpp"
 #include "bench/workload.hpp"
 #include "runtime/runtime.hpp"
 #include "scene/load.hpp"
@@ -14,6 +13,7 @@
 #include "study/picture_errors.hpp"
 #include "study/picture_rays.hpp"
 #include "study/statistics.hpp"
+#include "study/still_life.hpp"
 #include "tracer/tracer.hpp"
 
 namespace facet::bench {
@@ -159,7 +159,7 @@ void run(const settings& o) {
   for (const std::string& path : o.scenes)
     are_same &= measure(load_scene(path), name_of(path), queue, o, report["results"]);
   for (const std::string& path : o.meshes)
-    are_same &= measure(still_life(read_obj(path).mesh), "still life: " + name_of(path), queue, o,
+    are_same &= measure(study::still_life(read_obj(path).mesh), "still life: " + name_of(path), queue, o,
                         report["results"]);
   if (!o.json.empty()) write_result(o.json, report);
   if (!are_same) throw std::runtime_error("ways to make one picture differ: see above");

@@ -95,6 +95,12 @@ void add_kernels(CLI::App& app, tracer::options& target) {
   app.add_flag("--all-features", target.all_features, "Compile what the scene does not need, too");
 }
 
+void add_no_tuning(CLI::App& app, bool& target) {
+  app.add_flag("--no-tuning", target,
+               "What is left open follows from the kind of device, not from what `facet tune`\n"
+               "has measured");
+}
+
 void add_tracing(CLI::App& app, tracing_options& target) {
   add_device(app, target.device, true);
   add_choice<tracer::tree_kind>(
@@ -112,6 +118,7 @@ void add_tracing(CLI::App& app, tracing_options& target) {
       "work-item, together where they stay close: in the wide layout, with\n"
       "a tree (default auto: on CPUs)");
   add_kernels(app, target.tracer);
+  add_no_tuning(app, target.no_tuning);
 }
 
 void add_split(CLI::App& app, tracer::options& target) {
