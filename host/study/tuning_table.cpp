@@ -125,4 +125,12 @@ tuning_table read_tuning_table(const std::filesystem::path& path) {
   return t;
 }
 
+tracer::choices tuned_values(const std::filesystem::path& path, const runtime::device& d) {
+  const auto values = read_tuning_table(path).values_for(d);
+  if (!values)
+    throw tuning_error(path.string() + ": has nothing for " + d.name() + " under driver " +
+                       d.driver_version() + "; `facet tune --out` writes it");
+  return *values;
+}
+
 }  // namespace facet::study

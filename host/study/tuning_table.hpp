@@ -61,4 +61,8 @@ struct tuning_table {
 /// table of this version, or has one entry that is not whole: nothing is taken of it then.
 tuning_table read_tuning_table(const std::filesystem::path& path);
 
+/// The values of a table that is to have some for the device. Throws tuning_error, also if it has
+/// none.
+tracer::choices tuned_values(const std::filesystem::path& path, const runtime::device& d);
+
 }  // namespace facet::study
