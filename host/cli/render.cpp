@@ -192,7 +192,7 @@ command add_render(CLI::App& program) {
   add_tracing(*app, o->tracing);
   add_split(*app, o->tracing.tracer);
   add_size(*app, "--work-group", o->group, side,
-           "Work-items of a group (default: by the kind of device)");
+           "Work-items of a group (default: as tuned, or by the kind of device)");
   add_size(*app, "--tile-size", o->tile, side,
            "Pixels of a launch (default: as many as take about 50 ms)");
   app->add_option("--stats", o->stats, "Write times and choices to this file, as JSON")
