@@ -131,24 +131,26 @@ TEST_CASE("one entry that is not whole spoils the table, whichever device it is 
     });
   };
   CHECK(spoil("group", 64) == "");
-  for (const auto& [key, value] :
-       std::vector<std::pair<std::string, json>>{{"group", 0},
-                                                 {"group", -1},
-                                                 {"group", 64.5},
-                                                 {"group", "64"},
-                                                 {"group", 1u << 30},
-                                                 {"packet_group", 0},
-                                                 {"layout", "tall"},
-                                                 {"geometry", true},
-                                                 {"packets", 1},
-                                                 {"split", nullptr},
-                                                 {"render_group", 8},
-                                                 {"render_group", {8}},
-                                                 {"render_group", {8, 8, 8}},
-                                                 {"render_group", {8, 0}},
-                                                 {"trace_registers", -64},
-                                                 {"leaf_sure", 0},
-                                                 {"leaf_size", "4"}}) {
+  const std::vector<std::pair<std::string, json>> wrong{{"group", 0},
+                                                        {"group", -1},
+                                                        {"group", 64.5},
+                                                        {"group", "64"},
+                                                        {"group", 1u << 30},
+                                                        {"packet_group", 0},
+                                                        {"layout", "tall"},
+                                                        {"geometry", true},
+                                                        {"packets", 1},
+                                                        {"split", nullptr},
+                                                        {"render_group", 8},
+                                                        {"render_group", {8}},
+                                                        {"render_group", {8, 8, 8}},
+                                                        {"render_group", {8, 0}},
+                                                        {"trace_registers", -64},
+                                                        {"leaf_sure", 0},
+                                                        {"leaf_size", "4"}};
+  for (const auto& pair : wrong) {
+    const auto& key = pair.first;
+    const json& value = pair.second;
     CAPTURE(key);
     CAPTURE(value);
     CHECK(spoil(key, value).starts_with("/devices/1/values/" + key));
