@@ -37,4 +37,8 @@ std::optional<std::uint32_t> challenger_of(const choice_result& c, const tuning_
   return best;
 }
 
+std::uint32_t taken_of(const choice_result& c, const tuning_settings& s) {
+  return c.challenger && is_faster(c.confirmation, s) ? *c.challenger : 0;
+}
+
 }  // namespace facet::study

@@ -71,6 +71,8 @@ struct choice_result {
 
 /// The trial that may be taken if it is confirmed.
 std::optional<std::uint32_t> challenger_of(const choice_result& c, const tuning_settings& s);
+/// The trial that is taken: the challenger if it is confirmed, else the value kept so far.
+std::uint32_t taken_of(const choice_result& c, const tuning_settings& s);
 
 struct workload_facts {
   std::string name, scene_name, scene_hash;

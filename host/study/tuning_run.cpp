@@ -92,6 +92,7 @@ class tuning_under_way {
     time_in_turns(c, all);
     c.challenger = challenger_of(c, settings_);
     if (c.challenger) confirm(c, all);
+    c.taken = taken_of(c, settings_);
     result_.values = c.trials[c.taken].as;
     result_.choices.push_back(std::move(c));
     if (watch_.on_choice) watch_.on_choice(result_.choices.back());
@@ -224,13 +225,11 @@ class tuning_under_way {
   }
 
   void confirm(choice_result& c, std::vector<contestant>& all) {
-    const std::uint32_t challenger = *c.challenger;
     samples kept(c.workloads.size()), own(c.workloads.size());
     for (unsigned r = 0; r < settings_.rounds; ++r)
-      round(c, {0, challenger}, all,
+      round(c, {0, *c.challenger}, all,
             [&](std::uint32_t k) -> samples& { return k == 0 ? kept : own; });
     c.confirmation = relative_to(kept, own, settings_.drawing());
-    if (is_faster(c.confirmation, settings_)) c.taken = challenger;
   }
 
   runtime::queue queue_;

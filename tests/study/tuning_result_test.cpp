@@ -93,3 +93,15 @@ TEST_CASE("the challenger is the fastest of those that pass, and never the kept 
   c.trials = {trial_of({}), trial_of(sure(0.985))};
   CHECK(!challenger_of(c, {}).has_value());
 }
+
+TEST_CASE("a challenger is taken if its second rounds say the same, and only then") {
+  choice_result c;
+  c.trials = {trial_of({}), trial_of(sure(1.1)), trial_of(sure(0.8))};
+  CHECK(taken_of(c, {}) == 0);
+  c.challenger = 2;
+  CHECK(taken_of(c, {}) == 0);
+  c.confirmation = sure(0.9);
+  CHECK(taken_of(c, {}) == 2);
+  c.confirmation = sure(0.975);  // its interval reaches beyond the margin
+  CHECK(taken_of(c, {}) == 0);
+}

@@ -71,6 +71,17 @@ tracer::options wrong_in_groups_of(std::uint32_t size) {
   return o;
 }
 
+/// Rays alone take long in groups of any other size.
+tracer::options slow_but_in_groups_of(std::uint32_t size) {
+  const std::string wait = "  if (get_local_size(0) != " + std::to_string(size) +
+                           "u)\n    for (volatile uint k = 0u; k < 20000u; ++k);\n";
+  const std::string alone = "  Query q = traverse(s, positions, vec_global(r->origin)",
+                    packet = "  PacketPart part[FACET_PARTS];\n  PacketSpace world;\n  bool";
+  tracer::options o;
+  o.edits = {{"trace.h", alone, wait + alone}, {"trace_packets.cl", packet, wait + packet}};
+  return o;
+}
+
 }  // namespace
 
 TEST_CASE(
@@ -102,6 +113,22 @@ TEST_CASE(
   CHECK(r.values == c.trials[c.taken].as);
   if (!c.challenger) CHECK(c.taken == 0);
   CHECK(last <= most);
+}
+
+TEST_CASE("a value that is sure to be faster is taken") {
+  const std::uint32_t other = over_rays() == "packet_group" ? 2 : 128;
+  tuning_settings s = settings();
+  s.tracer = slow_but_in_groups_of(other);
+  std::vector<study::tuning_scene> rays = scenes();
+  rays[0].with_picture = false;
+  tuning_result r;
+  study::run_tuning(test::queue(), rays, s, r);
+  REQUIRE(r.choices.size() == 1);
+  const choice_result& c = r.choices[0];
+  CHECK(c.trials[c.taken].value == std::to_string(other));
+  CHECK(c.confirmation.rounds.size() == 3);
+  CHECK(!(r.values == r.usual));
+  CHECK(r.values == c.trials[c.taken].as);
 }
 
 TEST_CASE("a value that gives other bits is an error that names it, its workload and the first") {
