@@ -71,15 +71,26 @@ tracer::options wrong_in_groups_of(std::uint32_t size) {
   return o;
 }
 
-/// Rays alone take long in groups of any other size.
-tracer::options slow_but_in_groups_of(std::uint32_t size) {
-  const std::string wait = "  if (get_local_size(0) != " + std::to_string(size) +
+/// Rays by themselves take long in groups for which `test` holds of their size.
+tracer::options slow_in_groups(const std::string& test, std::uint32_t size) {
+  const std::string wait = "  if (get_local_size(0) " + test + " " + std::to_string(size) +
                            "u)\n    for (volatile uint k = 0u; k < 20000u; ++k);\n";
   const std::string alone = "  Query q = traverse(s, positions, vec_global(r->origin)",
                     packet = "  PacketPart part[FACET_PARTS];\n  PacketSpace world;\n  bool";
   tracer::options o;
   o.edits = {{"trace.h", alone, wait + alone}, {"trace_packets.cl", packet, wait + packet}};
   return o;
+}
+
+/// The choice over rays, made without pictures.
+choice_result chosen_for_rays(const tuning_settings& s) {
+  std::vector<study::tuning_scene> rays = scenes();
+  rays[0].with_picture = false;
+  tuning_result r;
+  study::run_tuning(test::queue(), rays, s, r);
+  REQUIRE(r.choices.size() == 1);
+  CHECK(r.values == r.choices[0].trials[r.choices[0].taken].as);
+  return r.choices[0];
 }
 
 }  // namespace
@@ -118,17 +129,25 @@ TEST_CASE(
 TEST_CASE("a value that is sure to be faster is taken") {
   const std::uint32_t other = over_rays() == "packet_group" ? 2 : 128;
   tuning_settings s = settings();
-  s.tracer = slow_but_in_groups_of(other);
-  std::vector<study::tuning_scene> rays = scenes();
-  rays[0].with_picture = false;
-  tuning_result r;
-  study::run_tuning(test::queue(), rays, s, r);
-  REQUIRE(r.choices.size() == 1);
-  const choice_result& c = r.choices[0];
+  s.tracer = slow_in_groups("!=", other);
+  const choice_result c = chosen_for_rays(s);
   CHECK(c.trials[c.taken].value == std::to_string(other));
   CHECK(c.confirmation.rounds.size() == 3);
-  CHECK(!(r.values == r.usual));
-  CHECK(r.values == c.trials[c.taken].as);
+}
+
+TEST_CASE("a value that takes far longer is timed in the first rounds alone, and not taken") {
+  const std::uint32_t other = over_rays() == "packet_group" ? 2 : 128;
+  tuning_settings s = settings();
+  s.rounds = 5;
+  s.tracer = slow_in_groups("==", other);
+  const choice_result c = chosen_for_rays(s);
+  for (const study::trial& t : c.trials)
+    if (t.value == std::to_string(other)) {
+      CHECK(t.relative.rounds.size() == 3);
+      CHECK(t.relative.median > 1.5);
+    }
+  CHECK(c.trials[0].ms[0].size() == 5);
+  CHECK(c.trials[c.taken].value != std::to_string(other));
 }
 
 TEST_CASE("a value that gives other bits is an error that names it, its workload and the first") {
