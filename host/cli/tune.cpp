@@ -9,6 +9,7 @@
 #include "cli/console.hpp"
 #include "cli/device_choice.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/memory.hpp"
 #include "cli/mesh_word.hpp"
 #include "cli/options.hpp"
 #include "cli/picture_size.hpp"
@@ -96,6 +97,9 @@ void save(const fs::path& path, const study::tuning_result& result) {
 }
 
 int tune(const arguments& o) {
+  if (o.device == "serial" || o.device == "serial-double")
+    throw usage_error("--device " + o.device +
+                      " leaves nothing to choose; name an OpenCL device (`facet devices`)");
   const fs::path path = table_path(o);
   if (!o.kernels.empty() && o.out.empty())
     throw usage_error(
@@ -113,6 +117,11 @@ int tune(const arguments& o) {
                               : o.is_quick      ? quick_width
                                                 : other_width;
   const std::vector<study::tuning_scene> scenes = scenes_of(o, width);
+  std::uint64_t pixels = 0;
+  for (const study::tuning_scene& s : scenes) pixels += std::uint64_t(s.width) * s.height;
+  // Rays of three kinds, their hits and a picture, and once more those of a run.
+  require_memory(pixels * (3 * (sizeof(tracer::ray) + 2 * sizeof(tracer::hit)) + 2 * 16),
+                 "rays and pictures " + std::to_string(width) + " pixels wide");
   stop_if_interrupted("making the scenes");
 
   study::tuning_result result;
@@ -237,9 +246,7 @@ command add_tune(CLI::App& program) {
   app->add_option("--scenes", o->scenes,
                   "Measure on rays and pictures of these, named as for `facet sweep`\n"
                   "(default: a knot, hills of 500,000 triangles, and a still life with glass)")
-      ->type_name("SCENE,...")
-      ->delimiter(',')
-      ->allow_extra_args(false);
+      ->type_name("SCENE");
   app->add_option("--only", o->only, "Make these choices alone (default: all)")
       ->type_name("CHOICE,...")
       ->delimiter(',')

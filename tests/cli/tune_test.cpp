@@ -295,10 +295,32 @@ TEST_CASE("what cannot be asked for is refused as usage, before anything is meas
   };
   refused({}, "FACET_TUNING is set and empty");
   refused({"--forget"}, "--out");
+  refused({"--device", "serial", "--out", "/tmp/t.json"}, "--device serial");
   refused({"--only", "leafs"}, "leaves");
   refused({"--rounds", "2"}, "from 3 to 1000 rounds");
   refused({"--show", "--forget"}, "--show");
   refused({"--show", "--quick"}, "--show");
+}
+
+TEST_CASE("it measures on the scenes that are named") {
+  if (!has_device()) return;
+  const temporary_folder folder;
+  put(folder / "s.json", small_scene());
+  std::vector<std::string> words = little;
+  words.insert(words.end(), {"--scenes", (folder / "s.json").string(), "torus_knot:p=3,q=4"});
+  const outcome o = tune(folder / "t.json", words);
+  CAPTURE(o.err);
+  REQUIRE(o.code == 0);
+  const json file = json::parse(content_of(folder / "t.json"));
+  std::vector<std::string> names;
+  for (const json& w : file["devices"][0]["workloads"]) names.push_back(w["name"]);
+  const std::string of_file = (folder / "s.json").string();
+  CHECK(names == std::vector<std::string>{
+                     of_file + ": picture", of_file + ": eye rays", of_file + ": shadow rays",
+                     of_file + ": bounce rays", "torus_knot:p=3,q=4: picture",
+                     "torus_knot:p=3,q=4: eye rays", "torus_knot:p=3,q=4: shadow rays",
+                     "torus_knot:p=3,q=4: bounce rays"});
+  CHECK(tune(folder / "t.json", {"--scenes", "dodecahedron"}).code == 3);
 }
 
 TEST_CASE("kernels of one's own need a table of their own") {
