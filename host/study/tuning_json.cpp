@@ -62,13 +62,12 @@ json to_json(const relative_time& t) {
 }
 
 json to_json(const trial& t, bool is_kept) {
-  json j{{"value", t.value}};
+  const char* standing = !t.refused.empty() ? "refused" : is_kept ? "kept so far" : "tried";
+  json j{{"value", t.value}, {"standing", standing}};
   if (!t.refused.empty()) {
-    j["standing"] = "refused";
     j["reason"] = t.refused;
     return j;
   }
-  j["standing"] = is_kept ? "kept so far" : "tried";
   j["warm_up_ms"] = rounded(t.warm_up_ms);
   j["median_ms"] = json::array();
   for (const std::vector<double>& ms : t.ms)
@@ -125,7 +124,9 @@ json entries_at(const std::filesystem::path& path, const Test& keeps) {
 
 }  // namespace
 
-std::string table_of(const tuning_result& r) { return json_text(table({entry_of(r)})); }
+std::string table_of(const tuning_result& r) {
+  return json_text(table(json::array({entry_of(r)})));
+}
 
 std::string table_with(const std::filesystem::path& path, const tuning_result& r) {
   const tuned_device of = tuned_device_of(*r.from.device);

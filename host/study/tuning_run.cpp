@@ -37,7 +37,7 @@ difference difference_of(const void* expected, const void* found, std::uint64_t 
                          std::size_t unit_bytes) {
   difference d;
   d.of = count;
-  if (std::memcmp(expected, found, count * unit_bytes) == 0) return d;
+  if (count == 0 || std::memcmp(expected, found, count * unit_bytes) == 0) return d;
   const auto *a = static_cast<const char*>(expected), *b = static_cast<const char*>(found);
   for (std::uint64_t k = 0; k < count; ++k)
     if (std::memcmp(a + k * unit_bytes, b + k * unit_bytes, unit_bytes) != 0)

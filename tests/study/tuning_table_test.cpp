@@ -142,7 +142,7 @@ TEST_CASE("one entry that is not whole spoils the table, whichever device it is 
                                                         {"packets", 1},
                                                         {"split", nullptr},
                                                         {"render_group", 8},
-                                                        {"render_group", {8}},
+                                                        {"render_group", json::array({8})},
                                                         {"render_group", {8, 8, 8}},
                                                         {"render_group", {8, 0}},
                                                         {"trace_registers", -64},

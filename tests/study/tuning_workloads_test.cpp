@@ -22,7 +22,8 @@ std::vector<tuning_workload> workloads_of(const tuning_scene& s) {
 }
 
 bool same_rays(const std::vector<tracer::ray>& a, const std::vector<tracer::ray>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0;
+  return a.size() == b.size() &&
+         (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0);
 }
 
 std::vector<tuning_scene> small_scenes() { return study::tuning_scenes(64, true); }
