@@ -5,17 +5,14 @@
 #include "tracer/morton.hpp"
 
 namespace facet::tracer {
-namespace {
 
 template <class Primitive>
-std::string options_of(const tuning& t, leaf_rule leaves) {
+std::string bottoms<Primitive>::options(const tuning& t, leaf_rule leaves) {
   return t.flags() + primitive_options(std::is_same_v<Primitive, Box>) +
          " -DLEAF_SURE=" + std::to_string(leaves.sure) +
          "u -DLEAF_MOST=" + std::to_string(leaves.most) +
          "u -DLEAF_BLOCK=" + std::to_string(leaves.block) + "u";
 }
-
-}  // namespace
 
 template <class Primitive>
 bottoms<Primitive>::bottoms(const runtime::queue& q, const runtime::source_tree& kernels,
@@ -24,7 +21,7 @@ bottoms<Primitive>::bottoms(const runtime::queue& q, const runtime::source_tree&
       is_serial_(t.serial_trees),
       pieces_(t.sort.tiles),
       program_(compiled(q, kernels, t.serial_trees ? "serial_tree.cl" : "bottom.cl",
-                        options_of<Primitive>(t, leaves))),
+                        options(t, leaves))),
       build_(program_.get_kernel("build_bottoms")) {}
 
 template <class Primitive>

@@ -36,6 +36,8 @@ class bottoms {
 
   double compile_ms() const { return program_.build_ms(); }
 
+  static std::string options(const tuning& t, leaf_rule leaves);
+
  private:
   runtime::queue queue_;
   bool is_serial_;

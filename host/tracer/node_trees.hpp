@@ -37,6 +37,8 @@ class node_trees {
   double compile_ms() const;
 
  private:
+  tree_cutter& cutter();
+
   runtime::queue queue_;
   const runtime::source_tree& kernels_;
   tuning tuning_;
@@ -44,7 +46,7 @@ class node_trees {
   std::optional<levels_builder> levels_;
   std::optional<tree_builder<texel>> binned_;
   std::optional<tree_builder<Box>> binned_boxes_;
-  tree_cutter cut_;
+  std::optional<tree_cutter> cut_;  ///< binned trees are not cut
 };
 
 }  // namespace facet::tracer

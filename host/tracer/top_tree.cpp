@@ -41,8 +41,11 @@ top_tree::top_tree(const runtime::queue& q, const runtime::source_tree& kernels,
     : queue_(q),
       is_serial_(t.serial_trees),
       split_group_(t.split_group),
-      program_(compiled(q, kernels, t.serial_trees ? "serial_tree.cl" : "top.cl",
-                        t.flags() + " -DSPLIT_GROUP=" + std::to_string(t.split_group) + "u")),
+      // Over instances the bottoms' program has the serial kernel as well: no option matters to it.
+      program_(is_serial_
+                   ? compiled(q, kernels, "serial_tree.cl", bottoms<Box>::options(t, one_each))
+                   : compiled(q, kernels, "top.cl",
+                              t.flags() + " -DSPLIT_GROUP=" + std::to_string(t.split_group) + "u")),
       ranges_(two<TopRange>()),
       sides_(two<TopSides>()),
       tiles_(two<std::uint32_t>()),
