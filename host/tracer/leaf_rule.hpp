@@ -15,6 +15,8 @@ struct leaf_rule {
   std::uint32_t block = 1;  ///< primitives of a leaf that are tested at once, a power of 2
 };
 
+/// Of trees over instances.
+inline constexpr leaf_rule one_each{1, 1};
 /// Of the wide layout: a leaf is a block.
 inline constexpr leaf_rule block_leaves{FACET_BLOCK, FACET_BLOCK, FACET_BLOCK};
 

@@ -7,8 +7,6 @@
 namespace facet::tracer {
 namespace {
 
-constexpr leaf_rule one_each{1, 1};
-
 Box box_of(const Instance& i) {
   Box b{};
   std::copy(std::begin(i.lo), std::end(i.lo), b.lo);
@@ -25,8 +23,7 @@ node_trees::node_trees(const runtime::queue& q, const runtime::source_tree& kern
       tuning_(t),
       leaves_(leaves),
       kind_(kind),
-      over_triangles_(q, kernels, t, kind, leaves, in_order),
-      cut_(q, kernels, t) {}
+      over_triangles_(q, kernels, t, kind, leaves, in_order) {}
 
 node_tree node_trees::over_triangles(runtime::buffer<texel>& corners, std::uint32_t count,
                                      const leaf_triangles* sorted) {
@@ -48,14 +45,15 @@ node_tree node_trees::over_instances(const std::vector<Instance>& placed) {
 
 node_tree node_trees::from(const given_tree& given, std::span<const texel> corners) {
   const host_binary_tree t = binary_of(given, corners);
-  return cut_.cut({runtime::buffer<TreeNode>(t.nodes.data(), t.nodes.size()),
-                   runtime::buffer<std::uint32_t>(t.order.data(), t.order.size()),
-                   std::uint32_t(t.order.size()), t.root, t.depth},
-                  leaves_);
+  if (!cut_) cut_.emplace(queue_, kernels_, tuning_);
+  return cut_->cut({runtime::buffer<TreeNode>(t.nodes.data(), t.nodes.size()),
+                    runtime::buffer<std::uint32_t>(t.order.data(), t.order.size()),
+                    std::uint32_t(t.order.size()), t.root, t.depth},
+                   leaves_);
 }
 
 double node_trees::compile_ms() const {
-  return cut_.compile_ms() + over_triangles_.compile_ms() +
+  return (cut_ ? cut_->compile_ms() : 0) + over_triangles_.compile_ms() +
          (over_boxes_ ? over_boxes_->compile_ms() : 0);
 }
 

@@ -48,7 +48,7 @@ class node_trees {
   tree_kind kind_;
   tree_builder<texel> over_triangles_;
   std::optional<tree_builder<Box>> over_boxes_;  ///< once there are instances
-  tree_cutter cut_;
+  std::optional<tree_cutter> cut_;               ///< once a tree is given
 };
 
 }  // namespace facet::tracer

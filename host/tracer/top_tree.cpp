@@ -37,12 +37,15 @@ std::array<runtime::buffer<T>, 2> two() {
 
 }  // namespace
 
-top_tree::top_tree(const runtime::queue& q, const runtime::source_tree& kernels, const tuning& t)
+top_tree::top_tree(const runtime::queue& q, const runtime::source_tree& kernels, const tuning& t,
+                   const runtime::program& bottoms)
     : queue_(q),
       is_serial_(t.serial_trees),
       split_group_(t.split_group),
-      program_(compiled(q, kernels, t.serial_trees ? "serial_tree.cl" : "top.cl",
-                        t.flags() + " -DSPLIT_GROUP=" + std::to_string(t.split_group) + "u")),
+      program_(is_serial_
+                   ? bottoms
+                   : compiled(q, kernels, "top.cl",
+                              t.flags() + " -DSPLIT_GROUP=" + std::to_string(t.split_group) + "u")),
       ranges_(two<TopRange>()),
       sides_(two<TopSides>()),
       tiles_(two<std::uint32_t>()),
