@@ -1,10 +1,9 @@
-// A scene's binary trees by any builder, with the leaves that a layout wants.
+// Meshes' binary trees by any builder, with the leaves that a layout wants.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "runtime/runtime.hpp"
 #include "tracer/cut_tree.hpp"
@@ -19,14 +18,12 @@ namespace facet::tracer {
 
 class node_trees {
  public:
-  /// kind: not tree_kind::none. leaves: of triangles; an instance is a leaf of its own.
+  /// kind: not tree_kind::none.
   node_trees(const runtime::queue& q, const runtime::source_tree& kernels, const tuning& t,
              tree_kind kind, leaf_rule leaves);
 
   /// Over the triangles at corners[3i..3i+2], i < count; count > 0.
   node_tree over_triangles(runtime::buffer<texel>& corners, std::uint32_t count);
-  /// Over the bounds of placed meshes, at least one.
-  node_tree over_instances(const std::vector<Instance>& placed);
   /// A caller's tree over those triangles. Throws runtime::exception (invalid) if it is none.
   node_tree from(const given_tree& given, std::span<const texel> corners);
 
@@ -37,13 +34,9 @@ class node_trees {
   double compile_ms() const;
 
  private:
-  runtime::queue queue_;
-  const runtime::source_tree& kernels_;
-  tuning tuning_;
   leaf_rule leaves_;
   std::optional<levels_builder> levels_;
   std::optional<tree_builder<texel>> binned_;
-  std::optional<tree_builder<Box>> binned_boxes_;
   tree_cutter cut_;
 };
 
