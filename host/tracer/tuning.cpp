@@ -30,6 +30,8 @@ tuning tuning_for(const runtime::device& d) {
     t.bounds_group = 256;
     t.serial_trees = false;
     t.split_render = true;
+    t.refit_group = 64;
+    t.refit_nodes = 8;
     t.list_group = 256;
     t.list_each = 4;
     t.scan_group = 256;

@@ -22,8 +22,10 @@ struct tuning {
                 bounds_groups = 64;  ///< of the kernels of cl/morton.cl; a power of 2
   bool serial_trees = true;  ///< a work-item builds a tree alone (cl/serial_tree.cl), not a group
   std::uint32_t list_group = 64, list_each = 32,
-                scan_group = 1;       ///< of cl/subtrees.cl; powers of 2
-  std::uint32_t split_group = 64;     ///< that splits a range of the top tree; at least 64
+                scan_group = 1;    ///< of cl/subtrees.cl; powers of 2
+  std::uint32_t split_group = 64;  ///< that splits a range of the top tree; at least 64
+  std::uint32_t refit_group = 1,
+                refit_nodes = 1024;   ///< of cl/refit.cl: nodes of a treelet at most
   bool image_geometry = false;        ///< what --geometry auto means
   bool wide_layout = false;           ///< what layout_kind::automatic means, but for images
   bool packets = false;               ///< what packet_kind::automatic means, if they can be
