@@ -27,13 +27,15 @@ struct settings {
   std::vector<std::string> meshes{"terrain:1000", "soup:1000000"};
   std::vector<double> amplitudes{0, 0.01, 0.03, 0.1, 0.3};
   std::vector<std::uint32_t> instances{10, 1000, 100'000};
-  std::string device = "0", layout = "auto", tree = "binned", json;
+  std::string device = "0", layout = "auto", tree = "binned", flags, json;
   unsigned repeat = 10;
+  bool no_rays = false;
 };
 
 tracer::options options_of(const settings& o) {
   tracer::options t;
   t.movable = true;
+  t.compiler_flags = o.flags;
   t.tree = *study::tree_maker_of(o.tree)->kind;
   t.layout = o.layout == "wide"     ? tracer::layout_kind::wide
              : o.layout == "narrow" ? tracer::layout_kind::narrow
@@ -155,10 +157,12 @@ void measure_waves(const settings& o, const std::string& path, const runtime::qu
         name_of(path).c_str(), amplitude, median_of(t.moved.ms), median_of(t.moved.upload_ms),
         median_of(t.moved.build_ms), median_of(t.anew.ms), median_of(t.anew.build_ms),
         row["sah_cost"]["moved"].get<double>(), row["sah_cost"]["anew"].get<double>());
-    std::vector<hit> met;
-    row["primary"] = rates_of("eye", primary, moved, *anew, o.repeat, &met);
-    row["bounce"] =
-        rates_of("bounce", bounce_rays(m, primary, met), moved, *anew, o.repeat, nullptr);
+    if (!o.no_rays) {
+      std::vector<hit> met;
+      row["primary"] = rates_of("eye", primary, moved, *anew, o.repeat, &met);
+      row["bounce"] =
+          rates_of("bounce", bounce_rays(m, primary, met), moved, *anew, o.repeat, nullptr);
+    }
     std::printf("\n");
     std::fflush(stdout);
     give(std::move(row));
@@ -181,7 +185,7 @@ std::vector<transform> scattered(std::uint32_t n, double time) {
 }
 
 json instances_row(const settings& o, std::uint32_t n, const runtime::queue& queue) {
-  scene s = scene_of(generate("icosphere", {{"subdivisions", 3}}));
+  scene s = scene_of(generate("icosphere", {{"subdivisions", 1}}));
   s.instances.assign(n, {});
   const auto put = [&](const std::vector<transform>& to) {
     for (std::uint32_t k = 0; k < n; ++k) s.instances[k].world_from_object = to[k];
@@ -256,6 +260,8 @@ void add_move_row(CLI::App& app) {
   row->add_option("--repeat", o->repeat, "timed turns of each, after one to warm up")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
+  row->add_flag("--no-rays", o->no_rays, "trace none: SAH costs alone say what a tree is worth");
+  row->add_option("--flags", o->flags, "for the kernels' compiler");
   row->add_option("--json", o->json, "write the figures to this file, after each row");
   row->callback([o] { run(*o); });
 }

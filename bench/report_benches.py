@@ -253,10 +253,13 @@ def move(root, _):
         return [f"{number(n['median'].get(float))} {ends(*(number(n[e].get(float)) for e in ('least', 'most')))}"
                 for n in nodes]
 
+    def share(r, rays):
+        return _ratio(r[rays]["ratio"]) if r.find(rays) else "\N{EN DASH}"
+
     waves = [(r["mesh"].get(str), number(r["triangles"].get(int)), f"{r['amplitude'].get(float):g}",
               *sides(r["move"]["ms"], r["anew"]["ms"], r["move"]["build_ms"], r["anew"]["build_ms"]),
               *(f"{r['sah_cost'][side].get(float):.2f}" for side in ("moved", "anew")),
-              *(_ratio(r[rays]["ratio"]) for rays in ("primary", "bounce"))) for r in root["results"].items()]
+              share(r, "primary"), share(r, "bounce")) for r in root["results"].items()]
     placed = [(number(r["instances"].get(int)), *sides(r["move"]["ms"], r["anew"]["ms"]),
                number(r["times_as_fast"].get(float))) for r in root["instances"].items()]
     return [table("Vertices that follow waves, against the scene made anew: milliseconds by the host's clock, median "

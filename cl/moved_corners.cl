@@ -59,6 +59,28 @@ __kernel void move_triangles(__global const uint* indices, __global const float*
   for (uint k = 0u; k < 3u; ++k) corners[3u * slot + k] = (float4)(c.p[k], 0.0f);
 }
 
+// So many blocks ahead a block's vertices are asked for, which are read from all over the mesh, and twice as many
+// ahead their indices.
+#define AHEAD 6u
+
+static inline void fetch_indices(__global const uint* indices, __global const TriangleInfo* info) {
+  for (uint lane = 0u; lane < FACET_BLOCK; ++lane) {
+    __global const uint* v = &indices[3u * (size_t)info[lane].triangle];
+    fetch_lines(v, sizeof(uint));
+    fetch_lines(v + 2, sizeof(uint));
+  }
+}
+
+static inline void fetch_vertices(__global const uint* indices, __global const float* positions,
+                                  __global const TriangleInfo* info) {
+  for (uint lane = 0u; lane < FACET_BLOCK; ++lane) {
+    const uint3 v = vload3(info[lane].triangle, indices);
+    fetch_lines(&positions[3u * (size_t)v.x], sizeof(float));
+    fetch_lines(&positions[3u * (size_t)v.y], sizeof(float));
+    fetch_lines(&positions[3u * (size_t)v.z], sizeof(float));
+  }
+}
+
 // The same in the wide layout: a work-item makes `run` of `count` blocks in a row. A lane that is not the first
 // and has the first one's triangle is absent.
 __kernel void move_blocks(__global const uint* indices, __global const float* positions,
@@ -70,6 +92,8 @@ __kernel void move_blocks(__global const uint* indices, __global const float* po
   for (uint i = (uint)min(first, (ulong)count); i < end; ++i) {
     const size_t block = (size_t)first_block + i;
     __global const TriangleInfo* info = &infos[FACET_BLOCK * block];
+    if (i + 2u * AHEAD < end) fetch_indices(indices, info + 2u * AHEAD * FACET_BLOCK);
+    if (i + AHEAD < end) fetch_vertices(indices, positions, info + AHEAD * FACET_BLOCK);
     float3 p[3][FACET_BLOCK];
     for (uint lane = 0u; lane < FACET_BLOCK; ++lane) {
       const uint triangle = info[lane].triangle;

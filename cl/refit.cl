@@ -9,6 +9,8 @@
 
 #ifdef FACET_WIDE
 
+#define LEAF_TEXELS 18u  // a block
+
 // Lanes without a triangle repeat corners of the block's first (blocks.h).
 static inline Bounds leaf_bounds(GEOMETRY corners, uint leaf) {
   Points lo, hi;
@@ -28,6 +30,8 @@ static inline Bounds node_bounds(__global const SceneNode* n) {
 }
 
 #else
+
+#define LEAF_TEXELS 3u  // a slot
 
 static inline Bounds leaf_bounds(GEOMETRY corners, uint leaf) {
   const uint first = FACET_LEAF_FIRST(leaf), count = FACET_LEAF_COUNT(leaf);
@@ -63,6 +67,15 @@ static inline void refit_node(__global SceneNode* nodes, uint node, GEOMETRY cor
   }
 }
 
+// Asks for what refit_node will read of a node that has come: triangles, which no other node reads.
+static inline void fetch_leaves(__global const SceneNode* n, GEOMETRY corners) {
+  for (uint c = 0u; c < CHILDREN; ++c) {
+    const uint child = n->child[c];
+    if (child & FACET_LEAF_BIT && child != FACET_NONE)
+      fetch_lines(corners + LEAF_TEXELS * (size_t)FACET_LEAF_FIRST(child), 256u);
+  }
+}
+
 // Treelets first_treelet to first_treelet + count - 1, which are of one phase. order: the mesh's nodes, counted
 // from first_node on, treelet by treelet; starts[i]: where treelet i starts in it.
 __kernel void refit_treelets(__global SceneNode* nodes, __global const uint* order, __global const uint* starts,
@@ -70,5 +83,9 @@ __kernel void refit_treelets(__global SceneNode* nodes, __global const uint* ord
   const uint i = (uint)get_global_id(0);
   if (i >= count) return;
   const uint end = starts[first_treelet + i + 1u];
-  for (uint k = starts[first_treelet + i]; k < end; ++k) refit_node(nodes, first_node + order[k], corners);
+  for (uint k = starts[first_treelet + i]; k < end; ++k) {
+    if (k + 4u < end) fetch_lines(&nodes[first_node + order[k + 4u]], sizeof(SceneNode));
+    if (k + 2u < end) fetch_leaves(&nodes[first_node + order[k + 2u]], corners);
+    refit_node(nodes, first_node + order[k], corners);
+  }
 }

@@ -14,9 +14,9 @@ runtime::buffer<T> uploaded(const std::vector<T>& from) {
   return from.empty() ? runtime::buffer<T>(1) : runtime::buffer<T>(from.data(), from.size());
 }
 
-/// A bit a triangle, one word at least.
+/// A bit a triangle.
 std::vector<std::uint32_t> bits_of(const std::vector<bool>& flags) {
-  std::vector<std::uint32_t> words(flags.size() / 32 + 1, 0);
+  std::vector<std::uint32_t> words((flags.size() + 31) / 32, 0);
   for (std::size_t i = 0; i < flags.size(); ++i)
     words[i / 32] |= std::uint32_t(flags[i]) << (i % 32);
   return words;
@@ -44,7 +44,7 @@ corner_mover::corner_mover(const runtime::queue& q, const runtime::source_tree& 
 void corner_mover::write(const mesh_vertices& v, const device_geometry& g, const mesh_place& at,
                          const std::vector<bool>& shut, const runtime::buffer<texel>& to) {
   const std::uint32_t has_shut = !shut.empty();
-  const runtime::buffer<std::uint32_t> bits = uploaded(bits_of(shut));
+  const runtime::buffer<std::uint32_t> bits = has_shut ? uploaded(bits_of(shut)) : none_;
   if (!has_shut)
     queue_.submit([&](runtime::handler& h) {
       h.fill(runtime::accessor{unsure_, h, runtime::write_only}, 0u);

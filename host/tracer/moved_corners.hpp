@@ -52,6 +52,7 @@ class corner_mover {
   runtime::program program_;
   runtime::kernel move_, move_normals_;
   runtime::buffer<std::uint32_t> unsure_;
+  runtime::buffer<std::uint32_t> none_{1};  ///< in place of bits, where none is shut
 };
 
 }  // namespace facet::tracer

@@ -1,12 +1,12 @@
 #include "tracer/scene_mover.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
 
 #include "scene/shut.hpp"
 #include "scene/validate.hpp"
+#include "tracer/moved_vertices.hpp"
 #include "tracer/pack.hpp"
 #include "tracer/stopwatch.hpp"
 
@@ -20,42 +20,6 @@ void check_count(const char* what, const std::string& whose, std::size_t found,
                              std::to_string(found) + ' ' + what + " were given, and " + whose +
                                  " has " + std::to_string(allowed) + "; give one for each");
 }
-
-bool uses_all(const mesh& m) {
-  std::vector<bool> is_used(m.positions.size(), false);
-  for (const std::uint32_t i : m.indices) is_used[i] = true;
-  return std::find(is_used.begin(), is_used.end(), false) == is_used.end();
-}
-
-bool is_allowed(vec3f p) {
-  return std::abs(p.x) <= limits::coordinate && std::abs(p.y) <= limits::coordinate &&
-         std::abs(p.z) <= limits::coordinate;
-}
-
-/// Within half of what validate_mesh allows, whatever rounding does here.
-bool is_surely_unit(vec3f n) { return std::abs(dot(n, n) - 1) <= 1e-3f; }
-
-/// Puts other vertices into a mesh, for as long as it lives.
-class lent_vertices {
- public:
-  lent_vertices(mesh& m, std::span<const vec3f> positions, std::span<const vec3f> normals)
-      : mesh_(m),
-        positions_(positions.begin(), positions.end()),
-        normals_(normals.empty() ? m.normals : std::vector(normals.begin(), normals.end())) {
-    swap();
-  }
-  ~lent_vertices() { swap(); }
-  lent_vertices(const lent_vertices&) = delete;
-  lent_vertices& operator=(const lent_vertices&) = delete;
-
- private:
-  void swap() {
-    std::swap(mesh_.positions, positions_);
-    std::swap(mesh_.normals, normals_);
-  }
-  mesh& mesh_;
-  std::vector<vec3f> positions_, normals_;
-};
 
 /// Copies what images hold into a buffer, and back.
 runtime::buffer<texel> texels_of(runtime::queue& q, const runtime::image2d& image) {
@@ -111,7 +75,7 @@ scene_mover::scene_mover(device_scene::state& s)
   for (std::size_t k = 0; k < bounds_.size(); ++k)
     if (g.meshes[k].slots > 0) {
       bounds_[k] = s.model.meshes[k].bounds();
-      uses_all_[k] = uses_all(s.model.meshes[k]);
+      uses_all_[k] = uses_all_positions(s.model.meshes[k]);
     }
   for (std::uint32_t id = 0; id < s.model.instances.size(); ++id) {
     const instance& i = s.model.instances[id];
@@ -138,7 +102,7 @@ void scene_mover::move_vertices(std::uint32_t mesh, std::span<const vec3f> posit
   if (!normals.empty()) check_count("normals", whose, normals.size(), m.normals.size());
 
   const auto start_upload = clock::now();
-  const box3f bounds = checked_bounds(mesh, positions, normals);
+  const box3f bounds = checked_bounds(s.model, mesh, positions, normals, uses_all_[mesh]);
   for (std::size_t id = 0; id < s.model.instances.size(); ++id)
     if (s.model.instances[id].mesh == mesh)
       validate_transform(s.model.instances[id].world_from_object, bounds, id, "");
@@ -192,23 +156,6 @@ void scene_mover::place(std::span<const transform> world_from_object) {
   write_instances();
   s.geometry.upload_ms = 0;
   s.geometry.build_ms = milliseconds_since(start);
-}
-
-/// What moving the mesh's vertices there makes of its bounds; throws scene_error where it is not
-/// allowed.
-box3f scene_mover::checked_bounds(std::uint32_t mesh, std::span<const vec3f> positions,
-                                  std::span<const vec3f> normals) {
-  facet::mesh& m = state_.model.meshes[mesh];
-  if (uses_all_[mesh]) {
-    box3f bounds;
-    bool is_sure = true;
-    for (const vec3f& p : positions) bounds.add(p), is_sure &= is_allowed(p);
-    for (const vec3f& n : normals) is_sure &= is_surely_unit(n);
-    if (is_sure) return bounds;
-  }
-  const lent_vertices lent(m, positions, normals);
-  validate_mesh(state_.model, mesh, "");
-  return m.bounds();
 }
 
 scene_mover::moving_mesh& scene_mover::moving(std::uint32_t mesh, bool with_normals) {

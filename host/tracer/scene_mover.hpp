@@ -32,8 +32,6 @@ class scene_mover {
     bool has_normals = false;  ///< they have moved, too
   };
 
-  box3f checked_bounds(std::uint32_t mesh, std::span<const vec3f> positions,
-                       std::span<const vec3f> normals);
   moving_mesh& moving(std::uint32_t mesh, bool with_normals);
   void write(std::uint32_t mesh, bool with_normals);
   std::vector<bool> shut_of(const mesh& m);
