@@ -179,19 +179,24 @@ std::vector<json> measure(const settings& o, const std::string& path, const runt
 
 /// Builds into memory that is kept: the median by the host's clock, and each kernel's time in the
 /// last build by the device's.
-json kept_row(const settings& o, const std::string& path, const runtime::queue& queue) {
-  const scene s = scene_of(load_workload(path));
+json kept_row(const settings& o, const std::string& path, const scene& s,
+              const std::string& builder, const runtime::queue& queue) {
   tracer::tuning t = tracer::tuning_for(queue.get_device());
   t.more_flags = o.flags;
-  if (o.face != "auto") t.serial_trees = o.face == "serial";
-  kept_build k(queue, s, t);
+  if (o.face == "group") {
+    t.build_in_groups();
+    // A CPU interprets them, for Oclgrind at worst: no more of them than find races.
+    if (!queue.get_device().is_gpu()) t.list_group = t.scan_group = 32, t.list_each = 8;
+  }
+  if (o.face == "serial") t.build_alone();
+  kept_build k(queue, s, t, *study::tree_maker_of(builder)->kind);
   k.build();
   std::vector<double> seconds;
   for (unsigned i = 0; i < o.repeat; ++i) seconds.push_back(k.build());
   const auto triangles = double(s.triangle_count());
   json row{{"mesh", name_of(path)},
            {"triangles", s.triangle_count()},
-           {"builder", "binned"},
+           {"builder", builder},
            {"build", rates(seconds, triangles)},
            {"bytes_a_triangle", double(k.bytes()) / triangles},
            {"kernel_ms", k.kernel_ms()}};
@@ -199,8 +204,8 @@ json kept_row(const settings& o, const std::string& path, const runtime::queue& 
   double sum = 0;
   for (const auto& [name, ms] : k.kernel_ms()) sum += ms;
   std::printf("%-20s %10.0f  %-14s %9.3f (%.3f-%.3f)  kernels %.3f ms, %.1f bytes a triangle\n",
-              row["mesh"].get<std::string>().c_str(), triangles, "binned, kept", 1e3 * r.median,
-              1e3 * r.least, 1e3 * r.most, sum, double(k.bytes()) / triangles);
+              row["mesh"].get<std::string>().c_str(), triangles, (builder + ", kept").c_str(),
+              1e3 * r.median, 1e3 * r.least, 1e3 * r.most, sum, double(k.bytes()) / triangles);
   if (o.steps)
     for (const auto& [name, ms] : k.kernel_ms())
       std::printf("    %-16s %8.4f ms\n", name.c_str(), ms);
@@ -225,7 +230,9 @@ void run(const settings& o) {
   for (const std::string& path : o.meshes) {
     try {
       if (o.kept) {
-        report["results"].push_back(kept_row(o, path, queue));
+        const scene s = scene_of(load_workload(path));
+        for (const std::string& builder : o.trees)
+          report["results"].push_back(kept_row(o, path, s, builder, queue));
         continue;
       }
       for (json& row : measure(o, path, queue, !peer.empty())) {

@@ -38,7 +38,7 @@ struct fold_times {
 fold_times measure(runtime::queue& q, const mesh& m, int repeats, const std::string& flags) {
   tracer::tuning t = tracer::tuning_for(q.get_device());
   t.more_flags = flags;
-  t.serial_trees = true;  // as on CPUs, for which the wide layout is
+  t.build_alone();  // as on CPUs, for which the wide layout is
   tracer::node_trees trees(q, tracer::kernel_sources(), t, tracer::tree_kind::binned,
                            tracer::block_leaves);
   tracer::folder folder(q, tracer::kernel_sources(), t);

@@ -7,14 +7,14 @@
 
 #include "scene/scene.hpp"
 #include "tracer/kernels.hpp"
-#include "tracer/leaf_order.hpp"
 #include "tracer/tree_builder.hpp"
 
 namespace facet::bench {
 
 class kept_build {
  public:
-  kept_build(const runtime::queue& q, const scene& s, const tracer::tuning& t);
+  kept_build(const runtime::queue& q, const scene& s, const tracer::tuning& t,
+             tracer::tree_kind kind);
 
   /// Builds the tree and puts the triangles into its order: until they are ready to be traced, by
   /// the host's clock, in seconds.
@@ -29,12 +29,10 @@ class kept_build {
   std::uint32_t count_;
   tracer::tuning tuned_;
   tracer::tree_builder<tracer::texel> builder_;
-  tracer::leaf_order gather_;
   runtime::buffer<tracer::texel> corners_, corners_out_;
   runtime::buffer<std::uint32_t> materials_;
   runtime::buffer<tracer::TriangleInfo> infos_;
   tracer::node_tree tree_;
-  runtime::event gathered_;
 };
 
 }  // namespace facet::bench

@@ -3,10 +3,10 @@
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "bench/result_file.hpp"
 #include "bench/rows.hpp"
-#include "bench/still_life.hpp"
 #include "bench/workload.hpp"
 #include "runtime/runtime.hpp"
 #include "scene/load.hpp"
@@ -14,6 +14,8 @@
 #include "study/picture_errors.hpp"
 #include "study/picture_rays.hpp"
 #include "study/statistics.hpp"
+#include "study/still_life.hpp"
+#include "study/tuning_table.hpp"
 #include "tracer/tracer.hpp"
 
 namespace facet::bench {
@@ -24,7 +26,8 @@ using json = nlohmann::ordered_json;
 struct settings {
   std::vector<std::string> scenes, meshes;
   std::vector<std::string> ways{"default", "single", "all-features"};
-  std::string device = "0", kernels, flags, json;
+  std::string device = "0", kernels, flags, tuning, json;
+  std::optional<tracer::choices> defaults;  ///< of `tuning`
   std::uint32_t group_width = 0, group_height = 0;
   std::uint32_t width = 0;
   int depth = -1, repeat = 5;
@@ -44,6 +47,7 @@ way way_of(const std::string& name, const settings& o) {
   way w{name, {}};
   w.options.kernel_folder = o.kernels;
   w.options.compiler_flags = o.flags.empty() ? "" : " " + o.flags;
+  w.options.defaults = o.defaults;
   w.options.group_width = o.group_width, w.options.group_height = o.group_height;
   if (name == "single") {
     w.options.packets = tracer::packet_kind::off;
@@ -141,15 +145,18 @@ bool measure(const scene& s, const std::string& name, runtime::queue& queue, con
   return are_same;
 }
 
-void run(const settings& o) {
+void run(settings o) {
   if (o.scenes.empty() && o.meshes.empty())
     throw CLI::ValidationError("render",
                                "nothing to render; name scene files, or OBJ files with --mesh");
   const runtime::device device = runtime::select_device(o.device);
   runtime::queue queue(device);
+  if (!o.tuning.empty()) o.defaults = study::tuned_values(o.tuning, device);
   json report = head_of("facet-bench-render", study::origin_now(device));
-  report["settings"] = {
-      {"repeats", o.repeat}, {"flags", o.flags}, {"work_group", {o.group_width, o.group_height}}};
+  report["settings"] = {{"repeats", o.repeat},
+                        {"flags", o.flags},
+                        {"work_group", {o.group_width, o.group_height}},
+                        {"tuned", o.defaults.has_value()}};
   report["results"] = json::array();
   std::printf(
       "way; milliseconds: kernel, median (least-most); wall, median; Mrays/s of all kinds; "
@@ -159,8 +166,8 @@ void run(const settings& o) {
   for (const std::string& path : o.scenes)
     are_same &= measure(load_scene(path), name_of(path), queue, o, report["results"]);
   for (const std::string& path : o.meshes)
-    are_same &= measure(still_life(read_obj(path).mesh), "still life: " + name_of(path), queue, o,
-                        report["results"]);
+    are_same &= measure(study::still_life(read_obj(path).mesh), "still life: " + name_of(path),
+                        queue, o, report["results"]);
   if (!o.json.empty()) write_result(o.json, report);
   if (!are_same) throw std::runtime_error("ways to make one picture differ: see above");
 }
@@ -182,6 +189,8 @@ void add_render_row(CLI::App& app) {
       ->capture_default_str();
   row->add_option("--device", o->device, "index, or part of a name")->capture_default_str();
   row->add_option("--kernels", o->kernels, "read cl/ from this folder");
+  row->add_option("--tuning", o->tuning,
+                  "a table of `facet tune`, in place of the built-in defaults");
   row->add_option("--flags", o->flags, "added to the compiler's options");
   row->add_option("--group-width", o->group_width, "work-items; 0: the device's default");
   row->add_option("--group-height", o->group_height, "work-items; 0: the device's default");

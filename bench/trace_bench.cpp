@@ -12,6 +12,7 @@
 #include "runtime/runtime.hpp"
 #include "study/statistics.hpp"
 #include "study/tree_makers.hpp"
+#include "study/tuning_table.hpp"
 #include "tracer/tracer.hpp"
 
 namespace facet::bench {
@@ -22,7 +23,7 @@ using json = nlohmann::ordered_json;
 struct settings {
   std::vector<std::string> meshes{"terrain:1000", "soup:1000000"}, peers{"single", "packets"};
   std::string device = "0", geometry = "auto", tree = "binned", layout = "auto", packets = "auto",
-              kernels, json;
+              kernels, tuning, json;
   int repeat = 5;
   unsigned threads = std::thread::hardware_concurrency();
 };
@@ -117,10 +118,14 @@ void run(const settings& o) {
                     : o.packets == "off" ? tracer::packet_kind::off
                                          : tracer::packet_kind::automatic;
   options.kernel_folder = o.kernels;
+  if (!o.tuning.empty()) options.defaults = study::tuned_values(o.tuning, device);
   const std::string peer_name = embree_version();
   json report = head_of("facet-bench-trace", study::origin_now(device));
-  report["settings"] = {
-      {"repeats", o.repeat}, {"tree", o.tree}, {"geometry", o.geometry}, {"layout", o.layout}};
+  report["settings"] = {{"repeats", o.repeat},
+                        {"tree", o.tree},
+                        {"geometry", o.geometry},
+                        {"layout", o.layout},
+                        {"tuned", options.defaults.has_value()}};
   report["peer"] = peer_of(peer_name, o.threads);
   report["results"] = json::array();
   report["builds"] = json::array();
@@ -188,6 +193,8 @@ void add_trace_row(CLI::App& app) {
       ->check(CLI::IsMember({"auto", "on", "off"}))
       ->capture_default_str();
   row->add_option("--kernels", o->kernels, "read cl/ from this folder");
+  row->add_option("--tuning", o->tuning,
+                  "a table of `facet tune`, in place of the built-in defaults");
   row->add_option("--repeat", o->repeat, "runs of each figure, alternated with the peer's")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();

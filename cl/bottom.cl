@@ -1,11 +1,12 @@
 // The trees at the bottom: over each of the subtrees that cl/subtrees.cl lists, a group to a subtree.
+#include "leaf_order.h"
 #include "sweep.h"
 
 // order: sorted place -> primitive; becomes leaf place -> primitive. Nodes are appended at counter[0];
 // a leaf's places are counted from 0. refs[k]: what subtree k is as a node's child.
 __kernel __attribute__((reqd_work_group_size(32, 1, 1))) void build_bottoms(
     PRIMITIVES restrict primitives, __global const uint* starts, __global uint* order, __global Node* nodes,
-    __global Item* items, __global uint* refs, __global uint* counter, uint room, __local uint* pool) {
+    __global Item* items, __global uint* refs, __global uint* counter, uint room LEAF_ORDER_ARGUMENTS, __local uint* pool) {
   const uint lane = (uint)get_local_id(0), k = (uint)get_group_id(0);
   const uint first = starts[k], count = starts[k + 1u] - first;
   const bool is_there = lane < count;
@@ -25,7 +26,9 @@ __kernel __attribute__((reqd_work_group_size(32, 1, 1))) void build_bottoms(
   const uint base = pool[SWEEP_MASK];
   const uint leaf = FACET_LEAF(first + t.leaf_begin, t.leaf_count);
   if (is_there) {
-    order[first + lane] = pool[SWEEP_WEIGHT + t.moved_from];
+    const uint here = pool[SWEEP_WEIGHT + t.moved_from];
+    order[first + lane] = here;
+    PUT_IN_ORDER(here, first + lane);
     if (t.link != NO_LINK && lane == t.leaf_begin)
       pool[SWEEP_NODES + 16u * (t.link >> 1) + NODE_CHILD + (t.link & 1u)] = leaf;
     atomic_max(&pool[SWEEP_MASK + 1u], t.depth);

@@ -78,6 +78,8 @@ struct FACET_ALIGNED TreeNode {
 // takes.
 #define FACET_SWEEP_MOST 32u
 #define FACET_SWEEP_WORDS 788u
+// Words of local memory that a group takes to merge a subtree (cl/levels.cl).
+#define FACET_MERGE_WORDS 1093u
 
 // Of the top tree's builder (cl/top.cl, cl/bin_split.h): work-items of a group and items of a tile; words of a
 // range's bins, and of local memory that a split takes; words of a level's counters, and where those of the

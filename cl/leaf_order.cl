@@ -1,20 +1,12 @@
-// What belongs to triangles, put into the order of leaves.
-#include "layout.h"
+#include "leaf_order.h"
 
-// Puts three float4 a triangle, and what the triangle is, into leaf order; i counts from the
-// mesh's first triangle.
+// i counts from the mesh's first triangle.
 __kernel void gather_triangles(__global const uint* order, __global const float4* corners,
                                __global const uint* materials, __global float4* corners_out,
                                __global TriangleInfo* infos, uint count, uint slot_offset) {
   const uint i = (uint)get_global_id(0);
   if (i >= count) return;
-  const uint from = order[i];
-  const size_t to = (size_t)slot_offset + i;
-  for (size_t c = 0; c < 3; ++c) corners_out[3 * to + c] = corners[3 * (size_t)from + c];
-  TriangleInfo info;
-  info.triangle = from;
-  info.material = materials[from];
-  infos[to] = info;
+  put_triangle(corners, materials, order[i], corners_out, infos, (size_t)slot_offset + i);
 }
 
 __kernel void gather_normals(__global const uint* order, __global const float4* normals,

@@ -1,43 +1,23 @@
-// Cuts the sorted places into the largest subtrees of the radix tree (Karras, "Maximizing parallelism in
-// the construction of BVHs, octrees, and k-d trees", 2012) that have at most MOST places, and lists
+// Cuts the sorted places into the largest subtrees of the radix tree that have at most MOST places, and lists
 // where they begin, in order.
-//
-// In that tree neighbours part at the highest bit that differs, of the code and then of the place, so
-// that equal codes have a tree, too.
-#include "build_layout.h"
 #include "group_sum.h"
+#include "radix_tree.h"
 
 #define MOST FACET_SWEEP_MOST
 // Places of a work-item that marks them; a multiple of 32 / its group.
 #ifndef EACH
-#define EACH 32u
+#define EACH 1024u
 #endif
 
-// How many leading bits place i has in common with place i + 1, and 1: larger where they part later; 0
-// where there is no neighbour. At most 64.
-static inline uint common_bits(__global const uint* codes, uint count, uint i) {
-  if (i >= count - 1u) return 0u;  // also i = 0 - 1
-  const uint difference = codes[i] ^ codes[i + 1u];
-  return 1u + (difference != 0u ? clz(difference) : 32u + clz(i ^ (i + 1u)));
-}
-
-// Whether one of the subtrees begins at a place; common[k] is of the place k - 1 further.
+// Whether one of the subtrees begins at a place: where the node that joins it with the place before has more than
+// MOST places. common[k] is of the place k - 1 further.
 static inline bool begins_subtree(__local const uchar* common) {
-  uint size = 1u;  // the first places from here on are a subtree
-  for (;;) {
-    const uint before = common[0], after = common[size];
-    if (before == 0u && after == 0u) return true;
-    // Its parent has all neighbours that have as much in common.
-    if (before >= after) {
-      uint more = 1u;
-      while (size + more <= MOST && common[-(int)more] >= before) ++more;
-      return size + more > MOST;
-    }
-    uint parent = size + 1u;
-    while (parent <= MOST && common[parent] >= after) ++parent;
-    if (parent > MOST) return true;
-    size = parent;
-  }
+  const uint own = common[0];
+  if (own == 0u) return true;
+  uint before = 1u, after = 1u;
+  while (before < MOST && common[-(int)before] > own) ++before;
+  while (before + after <= MOST && common[after] > own) ++after;
+  return before + after > MOST;
 }
 
 // Bits of marks[] say which places begin one, counts[tile] how many of the tile's. A group takes a tile of
@@ -58,6 +38,42 @@ __kernel void mark_subtrees(__global const uint* codes, __global uint* marks, __
   if (lid != 0u) return;
   uint sum = 0u;
   for (uint k = 0u; k < words; ++k) sum += popcount(bits[k]);
+  counts[at] = sum;
+}
+
+// How many places the subtree has that begins at a place, 0 if none does; common as above.
+static inline uint begun_subtree(const uchar* common) {
+  uint size = 1u;  // the first places from here on are a subtree
+  for (;;) {
+    const uint before = common[0], after = common[size];
+    if (before == 0u && after == 0u) return size;
+    // Its parent has all neighbours that have as much in common.
+    if (before >= after) {
+      uint more = 1u;
+      while (size + more <= MOST && common[-(int)more] >= before) ++more;
+      return size + more > MOST ? size : 0u;
+    }
+    uint parent = size + 1u;
+    while (parent <= MOST && common[parent] >= after) ++parent;
+    if (parent > MOST) return size;
+    size = parent;
+  }
+}
+
+// The same for a CPU: a work-item takes a tile of EACH places alone, and goes from one subtree to the next.
+__kernel void mark_subtrees_alone(__global const uint* codes, __global uint* marks, __global uint* counts, uint count) {
+  const uint at = (uint)get_global_id(0), first = at * EACH, here = min(EACH, count - first);
+  uchar common[EACH + 2u * MOST];
+  for (uint k = 0u; k < EACH + 2u * MOST; ++k) common[k] = (uchar)common_bits(codes, count, first + k - MOST);
+  uint bits[EACH / 32u], sum = 0u;
+  for (uint k = 0u; k < EACH / 32u; ++k) bits[k] = 0u;
+  for (uint k = 0u; k < here;) {
+    const uint size = begun_subtree(common + MOST + k - 1u);
+    if (size != 0u) bits[k / 32u] |= 1u << k % 32u;
+    sum += size != 0u ? 1u : 0u;
+    k += max(size, 1u);  // no other begins in it
+  }
+  for (uint k = 0u; k < EACH / 32u; ++k) marks[at * (EACH / 32u) + k] = bits[k];
   counts[at] = sum;
 }
 

@@ -94,6 +94,8 @@ static inline uint shared_word(__global const uint* word) {
 static inline void share_word(__global uint* word, uint value) {
   __asm__ volatile("st.relaxed.gpu.global.u32 [%0], %1;" : : "l"(word), "r"(value) : "memory");
 }
+// What was shared before is seen before what is shared after, and read after what was read before.
+static inline void share_fence(void) { __asm__ volatile("fence.acq_rel.gpu;" : : : "memory"); }
 
 #else
 
@@ -101,6 +103,7 @@ static inline uint shared_word(__global uint* word) { return atomic_or((volatile
 static inline void share_word(__global uint* word, uint value) {
   atomic_xchg((volatile __global uint*)word, value);
 }
+static inline void share_fence(void) { mem_fence(CLK_GLOBAL_MEM_FENCE); }
 
 #endif
 

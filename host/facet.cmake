@@ -28,6 +28,14 @@ function(facet_computes target)
   endif()
 endfunction()
 
+# facet_reads_command_line(TARGET): what takes long lies in the libraries, and most of the time to compile these
+# files is their headers' code.
+function(facet_reads_command_line target)
+  if(NOT FACET_SANITIZE)
+    target_compile_options(${target} PRIVATE -O1)
+  endif()
+endfunction()
+
 # facet_library(NAME SOURCES ... LINKS ...): one folder of host/, included as "FOLDER/file.hpp".
 function(facet_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})

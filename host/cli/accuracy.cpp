@@ -16,6 +16,7 @@
 #include "cli/options.hpp"
 #include "cli/progress.hpp"
 #include "cli/stats_file.hpp"
+#include "cli/tuning_file.hpp"
 #include "image/output.hpp"
 #include "study/cases/cases.hpp"
 #include "study/cases/report.hpp"
@@ -32,7 +33,7 @@ struct arguments {
   std::string cases = "all", device, json;
   double rays = 10000;
   std::uint64_t seed = 1;
-  bool with_mistakes = false;
+  bool with_mistakes = false, no_tuning = false;
   console say;
 };
 
@@ -57,14 +58,18 @@ std::vector<study::hard_case> chosen(const std::string& text) {
   return some;
 }
 
-nlohmann::ordered_json content_of(const arguments& o, const runtime::device& d,
+nlohmann::ordered_json content_of(const arguments& o, const runtime::device& d, bool is_tuned,
                                   const std::vector<study::case_report>& reports, bool complete) {
-  nlohmann::ordered_json content{
-      {"format", "facet-accuracy"},    {"version", study::report_version},
-      {"facet", FACET_VERSION},        {"device", d.name()},
-      {"platform", d.platform_name()}, {"driver", d.driver_version()},
-      {"rays", std::uint64_t(o.rays)}, {"seed", o.seed},
-      {"complete", complete}};
+  nlohmann::ordered_json content{{"format", "facet-accuracy"},
+                                 {"version", study::report_version},
+                                 {"facet", FACET_VERSION},
+                                 {"device", d.name()},
+                                 {"platform", d.platform_name()},
+                                 {"driver", d.driver_version()},
+                                 {"rays", std::uint64_t(o.rays)},
+                                 {"seed", o.seed},
+                                 {"tuned", is_tuned},
+                                 {"complete", complete}};
   for (const study::case_report& r : reports) content["cases"].push_back(study::to_json(r));
   return content;
 }
@@ -77,7 +82,7 @@ void refuse_with(const CLI::App& app, const char* given, std::initializer_list<c
 }
 
 int run_variants(const arguments& o) {
-  refuse_with(*o.app, "with --variants", {"--cases", "--rays", "--mistakes"});
+  refuse_with(*o.app, "with --variants", {"--cases", "--rays", "--mistakes", "--no-tuning"});
   if (o.device == "serial" || o.device == "serial-double")
     throw usage_error(
         "--device " + o.device +
@@ -106,11 +111,13 @@ int run(const arguments& o) {
   l.rays = std::uint64_t(o.rays);
   l.seed = o.seed;
   l.threads = std::max(1u, std::thread::hardware_concurrency());
+  l.options.defaults = tuned_defaults(device, o.no_tuning, o.say);
   l.on_batch = [] { stop_if_interrupted("the cases"); };
 
   std::vector<study::case_report> reports;
   const auto write = [&](bool complete) {
-    if (!o.json.empty()) write_json(o.json, content_of(o, device, reports, complete));
+    if (!o.json.empty())
+      write_json(o.json, content_of(o, device, l.options.defaults.has_value(), reports, complete));
   };
   std::printf("%s\n", study::table_head(o.with_mistakes).c_str());
   bool all_met = true;
@@ -183,6 +190,7 @@ command add_accuracy(CLI::App& program) {
       "--mistakes", o->with_mistakes,
       "Run each case also with the mistake in the kernels that it is there to catch, and\n"
       "say how often it did");
+  add_no_tuning(*app, o->no_tuning);
   app->add_option("--json", o->json, "Write all findings to this file")->type_name("FILE");
   add_console(*app, o->say);
   return {app, [o] { return run(*o); }};

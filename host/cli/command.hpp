@@ -13,7 +13,7 @@ namespace facet::cli {
 enum exit_code : int {
   done = 0,
   usage = 2,
-  input = 3,  ///< a scene, a mesh, rays, or a picture to compare
+  input = 3,  ///< a scene, a mesh, rays, a picture to compare, or a table of tuned defaults
   device = 4,
   memory = 5,
   output = 6,
@@ -36,5 +36,6 @@ command add_info(CLI::App& program);
 command add_compare(CLI::App& program);
 command add_accuracy(CLI::App& program);
 command add_sweep(CLI::App& program);
+command add_tune(CLI::App& program);
 
 }  // namespace facet::cli

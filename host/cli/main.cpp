@@ -16,6 +16,7 @@
 #include "runtime/error.hpp"
 #include "scene/error.hpp"
 #include "scene/nearest.hpp"
+#include "study/tuning_table.hpp"
 
 namespace {
 
@@ -33,6 +34,8 @@ int explain() {
   } catch (const cli::usage_error& e) {
     return fail(cli::usage, e.what());
   } catch (const scene_error& e) {
+    return fail(cli::input, e.what());
+  } catch (const study::tuning_error& e) {
     return fail(cli::input, e.what());
   } catch (const image::output_error& e) {
     return fail(cli::output, e.what());
@@ -82,7 +85,7 @@ int run(int argc, char** argv) {
   const std::vector<cli::command> commands{cli::add_render(program),  cli::add_trace(program),
                                            cli::add_devices(program), cli::add_info(program),
                                            cli::add_compare(program), cli::add_accuracy(program),
-                                           cli::add_sweep(program)};
+                                           cli::add_sweep(program),   cli::add_tune(program)};
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& e) {  // --help, --version

@@ -77,22 +77,30 @@ void add_device(CLI::App& app, std::string& target, bool serial_too) {
 }
 
 void add_kernels(CLI::App& app, tracer::options& target) {
-  add_choice<tracer::geometry_kind>(app, "--geometry", target.geometry,
-                                    {{"auto", tracer::geometry_kind::automatic},
-                                     {"buffer", tracer::geometry_kind::buffer},
-                                     {"image", tracer::geometry_kind::image}},
-                                    "Where the device reads vertices from (default auto: what was\n"
-                                    "measured to be faster on this kind of device)");
-  add_choice<tracer::layout_kind>(app, "--layout", target.layout,
-                                  {{"auto", tracer::layout_kind::automatic},
-                                   {"narrow", tracer::layout_kind::narrow},
-                                   {"wide", tracer::layout_kind::wide}},
-                                  "Nodes of two children and single triangles, or eight of both\n"
-                                  "at a time (default auto: wide on CPUs, but for images)");
+  add_choice<tracer::geometry_kind>(
+      app, "--geometry", target.geometry,
+      {{"auto", tracer::geometry_kind::automatic},
+       {"buffer", tracer::geometry_kind::buffer},
+       {"image", tracer::geometry_kind::image}},
+      "Where the device reads vertices from (default auto: as tuned, or what was\n"
+      "measured to be faster on this kind of device)");
+  add_choice<tracer::layout_kind>(
+      app, "--layout", target.layout,
+      {{"auto", tracer::layout_kind::automatic},
+       {"narrow", tracer::layout_kind::narrow},
+       {"wide", tracer::layout_kind::wide}},
+      "Nodes of two children and single triangles, or eight of both\n"
+      "at a time (default auto: as tuned, or wide on CPUs, but for images)");
   app.add_option("--kernels", target.kernel_folder,
                  "Read the OpenCL C files from this folder, not from the program")
       ->type_name("DIR");
   app.add_flag("--all-features", target.all_features, "Compile what the scene does not need, too");
+}
+
+void add_no_tuning(CLI::App& app, bool& target) {
+  app.add_flag("--no-tuning", target,
+               "What is left open follows from the kind of device, not from what `facet tune`\n"
+               "has measured");
 }
 
 void add_tracing(CLI::App& app, tracing_options& target) {
@@ -110,8 +118,9 @@ void add_tracing(CLI::App& app, tracing_options& target) {
        {"off", tracer::packet_kind::off}},
       "Rays that follow one another, or pixels of a tile, are taken by one\n"
       "work-item, together where they stay close: in the wide layout, with\n"
-      "a tree (default auto: on CPUs)");
+      "a tree (default auto: as tuned, or on CPUs)");
   add_kernels(app, target.tracer);
+  add_no_tuning(app, target.no_tuning);
 }
 
 void add_split(CLI::App& app, tracer::options& target) {
@@ -121,7 +130,7 @@ void add_split(CLI::App& app, tracer::options& target) {
        {"on", tracer::split_kind::on},
        {"off", tracer::split_kind::off}},
       "A picture's rays of one depth are traced and shaded by launches of their own, or a\n"
-      "pixel's all by one work-item (default auto: on GPUs, if rays are reflected or\n"
+      "pixel's all by one work-item (default auto: as tuned, or on GPUs; if rays are reflected or\n"
       "refracted, and unless a work-group is given)");
 }
 

@@ -32,6 +32,7 @@ CLI::Option* add_size(CLI::App& app, const std::string& name, size& target, std:
 struct tracing_options {
   std::string device;  ///< as runtime::select_device takes it, "serial" or "serial-double"; or ""
   tracer::options tracer;
+  bool no_tuning = false;  ///< the built-in defaults, whatever was measured
 
   bool serial() const { return device == "serial" || device == "serial-double"; }
   bool serial_double() const { return device == "serial-double"; }
@@ -41,7 +42,9 @@ struct tracing_options {
 void add_device(CLI::App& app, std::string& target, bool serial_too);
 /// --geometry, --kernels, --all-features
 void add_kernels(CLI::App& app, tracer::options& target);
-/// --device, --tree, --packets, --geometry, --kernels, --all-features
+/// --no-tuning
+void add_no_tuning(CLI::App& app, bool& target);
+/// --device, --tree, --packets, --geometry, --layout, --no-tuning, --kernels, --all-features
 void add_tracing(CLI::App& app, tracing_options& target);
 
 /// --split

@@ -14,6 +14,7 @@
 #include "cli/picture_size.hpp"
 #include "cli/progress.hpp"
 #include "cli/stats_file.hpp"
+#include "cli/tuning_file.hpp"
 #include "image/output.hpp"
 #include "reference/tracer.hpp"
 #include "scene/load.hpp"
@@ -86,6 +87,7 @@ picture render_on_device(const arguments& o, const scene& s, picture_shape p,
   const runtime::device device = choose_device(o.tracing.device, o.say);
   prepare_to_write(o.out);  // not before: the driver's libraries would wait for it
   tracer::options options = o.tracing.tracer;
+  options.defaults = tuned_defaults(device, o.tracing.no_tuning, o.say);
   options.group_width = o.group.width, options.group_height = o.group.height;
   options.tile_width = o.tile.width, options.tile_height = o.tile.height;
   tracer::device_scene on_device(runtime::queue(device), s, options);
@@ -134,7 +136,7 @@ void write_stats(const arguments& o, picture_shape p, const tracer::statistics& 
 int run(const arguments& o) {
   if (o.tracing.serial())
     refuse_with_serial(*o.app, {"--tree", "--packets", "--split", "--geometry", "--kernels",
-                                "--all-features", "--work-group", "--tile-size"});
+                                "--all-features", "--no-tuning", "--work-group", "--tile-size"});
   if (o.tracing.tracer.split == tracer::split_kind::on && o.app->count("--work-group") > 0)
     throw usage_error(
         "--work-group is that of the kernel for whole pixels, which --split on does not use; leave "
@@ -190,7 +192,7 @@ command add_render(CLI::App& program) {
   add_tracing(*app, o->tracing);
   add_split(*app, o->tracing.tracer);
   add_size(*app, "--work-group", o->group, side,
-           "Work-items of a group (default: by the kind of device)");
+           "Work-items of a group (default: as tuned, or by the kind of device)");
   add_size(*app, "--tile-size", o->tile, side,
            "Pixels of a launch (default: as many as take about 50 ms)");
   app->add_option("--stats", o->stats, "Write times and choices to this file, as JSON")

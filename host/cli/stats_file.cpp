@@ -29,6 +29,7 @@ nlohmann::ordered_json to_json(const tracer::statistics& s) {
           {"layout", s.layout},
           {"rays_a_work_item", s.rays_a_work_item},
           {"split", s.is_split},
+          {"tuned", s.is_tuned},
           {"parts_ms", s.parts_ms},
           {"features", s.features},
           {"tree_depth", s.tree_depth},

@@ -189,7 +189,9 @@ command add_sweep(CLI::App& program) {
       "then take 2 to 4 minutes on PoCL with two cores.\n"
       "Times on stdout are medians with their 95% intervals; the best are all whose intervals\n"
       "overlap. Exit code 4 if a shape's picture is not the first one's, bit for bit.\n"
-      "Interrupted, it writes what it has, marked as not complete.");
+      "Interrupted, it writes what it has, marked as not complete.\n"
+      "What is left open follows from the kind of device, not from what `facet tune` has "
+      "measured.");
   return {app, [o] { return run(*o); }};
 }
 

@@ -15,6 +15,7 @@
 #include "cli/options.hpp"
 #include "cli/progress.hpp"
 #include "cli/stats_file.hpp"
+#include "cli/tuning_file.hpp"
 #include "image/npy.hpp"
 #include "image/output.hpp"
 #include "reference/tracer.hpp"
@@ -89,7 +90,9 @@ std::vector<tracer::hit> trace_on_device(const arguments& o, const scene& s,
                                          const std::vector<tracer::ray>& rays,
                                          tracer::statistics& stats) {
   const runtime::device device = choose_device(o.tracing.device, o.say);
-  tracer::device_scene on_device(runtime::queue(device), s, o.tracing.tracer);
+  tracer::options options = o.tracing.tracer;
+  options.defaults = tuned_defaults(device, o.tracing.no_tuning, o.say);
+  tracer::device_scene on_device(runtime::queue(device), s, options);
   stop_if_interrupted("preparing the device");
   auto hits = on_device.trace(rays, o.any, o.repeat, &stats);
   stop_if_interrupted("tracing");
@@ -121,7 +124,8 @@ void write_hits(const std::string& path, const std::vector<tracer::hit>& hits) {
 
 int run(const arguments& o) {
   if (o.tracing.serial())
-    refuse_with_serial(*o.app, {"--geometry", "--kernels", "--packets", "--all-features"});
+    refuse_with_serial(*o.app,
+                       {"--geometry", "--kernels", "--packets", "--all-features", "--no-tuning"});
   check_outputs(o);
   const scene s = scene_of_word(o.mesh);
   o.say.notes(s.notes);

@@ -5,26 +5,30 @@
 #include "tracer/morton.hpp"
 
 namespace facet::tracer {
-namespace {
 
-template <class Primitive>
-std::string options_of(const tuning& t, leaf_rule leaves) {
-  return t.flags() + primitive_options(std::is_same_v<Primitive, Box>) +
-         " -DLEAF_SURE=" + std::to_string(leaves.sure) +
+std::string leaf_options(leaf_rule leaves, bool in_order) {
+  return " -DLEAF_SURE=" + std::to_string(leaves.sure) +
          "u -DLEAF_MOST=" + std::to_string(leaves.most) +
-         "u -DLEAF_BLOCK=" + std::to_string(leaves.block) + "u";
+         "u -DLEAF_BLOCK=" + std::to_string(leaves.block) + "u" +
+         (in_order ? " -DFACET_IN_ORDER" : "");
 }
 
-}  // namespace
+void set_leaf_triangles(runtime::handler& h, std::uint32_t k, const leaf_triangles& sorted) {
+  h.set_arg(k++, runtime::accessor{sorted.materials, h, runtime::read_only});
+  h.set_arg(k++, runtime::accessor{sorted.corners, h, runtime::read_write});
+  h.set_arg(k++, runtime::accessor{sorted.infos, h, runtime::read_write});
+  h.set_arg(k++, sorted.slot);
+}
 
 template <class Primitive>
 bottoms<Primitive>::bottoms(const runtime::queue& q, const runtime::source_tree& kernels,
-                            const tuning& t, leaf_rule leaves)
+                            const tuning& t, leaf_rule leaves, bool in_order)
     : queue_(q),
       is_serial_(t.serial_trees),
       pieces_(t.sort.tiles),
       program_(compiled(q, kernels, t.serial_trees ? "serial_tree.cl" : "bottom.cl",
-                        options_of<Primitive>(t, leaves))),
+                        t.flags() + primitive_options(std::is_same_v<Primitive, Box>) +
+                            leaf_options(leaves, in_order))),
       build_(program_.get_kernel("build_bottoms")) {}
 
 template <class Primitive>
@@ -32,7 +36,8 @@ std::uint32_t bottoms<Primitive>::build(runtime::buffer<Primitive>& primitives,
                                         runtime::buffer<std::uint32_t>& starts,
                                         std::uint32_t subtrees,
                                         runtime::buffer<std::uint32_t>& order, tree_parts& parts,
-                                        std::uint32_t first_node, std::vector<step>& steps) {
+                                        std::uint32_t first_node, const leaf_triangles* sorted,
+                                        std::vector<step>& steps) {
   queue_.submit([&](runtime::handler& h) {
     h.fill(runtime::accessor{counter_, h, runtime::write_only}, first_node);
   });
@@ -52,7 +57,9 @@ std::uint32_t bottoms<Primitive>::build(runtime::buffer<Primitive>& primitives,
                        h.parallel_for(in_groups((subtrees + each - 1) / each, 1), build_);
                      } else {
                        const runtime::local_accessor<std::uint32_t> pool(FACET_SWEEP_WORDS, h);
-                       h.set_args(from, at, places, nodes, items, refs, counter, room, pool);
+                       h.set_args(from, at, places, nodes, items, refs, counter, room);
+                       if (sorted) set_leaf_triangles(h, 8, *sorted);
+                       h.set_arg(sorted ? 12 : 8, pool);
                        h.parallel_for(in_groups(subtrees, FACET_SWEEP_MOST), build_);
                      }
                    })});

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "runtime/runtime.hpp"
 #include "tracer/layout.hpp"
+#include "tracer/leaf_order.hpp"
 #include "tracer/leaf_rule.hpp"
 #include "tracer/pack.hpp"
 #include "tracer/step.hpp"
@@ -19,20 +21,29 @@ struct tree_parts {
   runtime::buffer<std::uint32_t> refs;  ///< what each item is as a node's child
 };
 
+/// The options of kernels that make leaves, for the compiler. in_order: they put triangles into
+/// leaf order (cl/leaf_order.h).
+std::string leaf_options(leaf_rule leaves, bool in_order);
+
+/// The arguments that this takes, the first of them number `k`.
+void set_leaf_triangles(runtime::handler& h, std::uint32_t k, const leaf_triangles& sorted);
+
 /// Primitive is texel (triangles) or Box.
 template <class Primitive>
 class bottoms {
  public:
   bottoms(const runtime::queue& q, const runtime::source_tree& kernels, const tuning& t,
-          leaf_rule leaves);
+          leaf_rule leaves, bool in_order);
 
   /// order: sorted place -> primitive; becomes leaf place -> primitive. Nodes are appended from
   /// first_node on. Returns the nodes that there are then; where they are more than
-  /// parts.nodes.size() they are not all written. Waits for the device.
+  /// parts.nodes.size() they are not all written. sorted: null unless in_order. Waits for the
+  /// device.
   std::uint32_t build(runtime::buffer<Primitive>& primitives,
                       runtime::buffer<std::uint32_t>& starts, std::uint32_t subtrees,
                       runtime::buffer<std::uint32_t>& order, tree_parts& parts,
-                      std::uint32_t first_node, std::vector<step>& steps);
+                      std::uint32_t first_node, const leaf_triangles* sorted,
+                      std::vector<step>& steps);
 
   double compile_ms() const { return program_.build_ms(); }
 

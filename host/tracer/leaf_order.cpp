@@ -14,18 +14,15 @@ leaf_order::leaf_order(const runtime::queue& q, const runtime::source_tree& kern
       normals_(program_.get_kernel("gather_normals")) {}
 
 runtime::event leaf_order::triangles(runtime::buffer<std::uint32_t>& order,
-                                     runtime::buffer<texel>& corners,
-                                     runtime::buffer<std::uint32_t>& materials,
-                                     runtime::buffer<texel>& corners_out,
-                                     runtime::buffer<TriangleInfo>& infos, std::uint32_t count,
-                                     std::uint32_t slot) {
+                                     runtime::buffer<texel>& corners, std::uint32_t count,
+                                     const leaf_triangles& to) {
   return queue_.submit([&](runtime::handler& h) {
     const runtime::accessor from{order, h, runtime::read_only};
     const runtime::accessor in{corners, h, runtime::read_only};
-    const runtime::accessor in_materials{materials, h, runtime::read_only};
-    const runtime::accessor out{corners_out, h, runtime::read_write};
-    const runtime::accessor out_infos{infos, h, runtime::read_write};
-    h.set_args(from, in, in_materials, out, out_infos, count, slot);
+    const runtime::accessor materials{to.materials, h, runtime::read_only};
+    const runtime::accessor out{to.corners, h, runtime::read_write};
+    const runtime::accessor infos{to.infos, h, runtime::read_write};
+    h.set_args(from, in, materials, out, infos, count, to.slot);
     h.parallel_for(padded(count, group_), triangles_);
   });
 }

@@ -1,42 +1,62 @@
-// The builder `levels`: centres -> Morton codes -> radix sort -> merge bottom-up, level by level.
+// The radix tree over sorted codes, merged bottom-up: what makes trees of tree_kind::levels
+// (cl/levels.cl, cl/serial_levels.cl).
 #pragma once
 
+#include <cstdint>
+
 #include "runtime/runtime.hpp"
-#include "tracer/binary_tree.hpp"
-#include "tracer/morton.hpp"
-#include "tracer/radix_sort.hpp"
+#include "tracer/bottoms.hpp"
+#include "tracer/leaf_order.hpp"
+#include "tracer/leaf_rule.hpp"
+#include "tracer/step.hpp"
 #include "tracer/tuning.hpp"
 
 namespace facet::tracer {
 
-class levels_builder {
+/// What a tree is merged from: sorted codes, the order that they give, and the subtrees with at
+/// most FACET_SWEEP_MOST places (subtrees.hpp), of which there is at least one.
+struct sorted_places {
+  runtime::buffer<std::uint32_t>&codes, &order, &starts;
+  std::uint32_t count, subtrees;
+};
+
+/// What is known of a tree when it is built. Where `nodes` are more than there is room for, they
+/// are not all written.
+struct built_root {
+  std::uint32_t nodes, root, depth;
+};
+
+/// Primitive is texel (triangles) or Box.
+template <class Primitive>
+class levels {
  public:
-  levels_builder(runtime::queue q, const runtime::source_tree& kernels, const tuning& t);
+  levels(const runtime::queue& q, const runtime::source_tree& kernels, const tuning& t,
+         leaf_rule leaves, bool in_order);
 
-  /// The tree over the first `count` > 0 boxes; finite ones. The same tree on every run and device.
-  /// Its depth is at most 32 + ceil(log2 count) (cl/levels.cl).
-  binary_tree build(runtime::buffer<Box>& boxes, std::uint32_t count);
+  /// The nodes over subtrees come first, those below them from subtrees - 1 on. sorted: null unless
+  /// in_order. Waits for the device.
+  built_root build(runtime::buffer<Primitive>& primitives, const sorted_places& places,
+                   tree_parts& parts, const leaf_triangles* sorted, std::vector<step>& steps);
 
-  /// The boxes of the triangles at corners[3i .. 3i+2], i < count.
-  runtime::buffer<Box> boxes_of(runtime::buffer<texel>& corners, std::uint32_t count);
-
-  /// Device memory that boxes_of and build take at their peak: boxes, codes and order with their
-  /// sorting copies, tree nodes, subtree ends, level lists.
-  static std::uint64_t scratch_bytes(std::uint64_t primitives) {
-    return primitives * (sizeof(Box) + 2 * sizeof(TreeNode) + 40);
-  }
-
-  double compile_ms() const;
+  double compile_ms() const { return program_.build_ms(); }
 
  private:
+  void merge_subtrees(runtime::buffer<Primitive>& primitives, const sorted_places& places,
+                      tree_parts& parts, const leaf_triangles* sorted, std::vector<step>& steps);
+  void merge_items(const sorted_places& places, tree_parts& parts, std::vector<step>& steps);
+  void merge_serially(const sorted_places& places, tree_parts& parts, std::vector<step>& steps);
+  std::uint32_t each(std::uint32_t subtrees) const { return (subtrees + pieces_ - 1) / pieces_; }
+
   runtime::queue queue_;
-  tuning tuning_;
-  morton<Box> morton_;
-  radix_sort<std::uint32_t> sort_codes_;
-  radix_sort<std::uint32_t> sort_levels_;
+  bool is_serial_;
+  std::uint32_t group_, pieces_;
+  runtime::buffer<std::uint32_t> told_{3};  ///< nodes, root, depth
+  runtime::buffer<std::uint32_t> ends_{1};  ///< a scratch word an item, or a run of them
   runtime::program program_;
-  runtime::kernel triangle_boxes_, boundary_levels_, level_starts_, make_leaves_, merge_level_,
-      tree_root_;
+  runtime::kernel subtrees_, items_, loose_;
 };
+
+extern template class levels<texel>;
+extern template class levels<Box>;
 
 }  // namespace facet::tracer

@@ -7,7 +7,6 @@
 
 #include "runtime/runtime.hpp"
 #include "tracer/cut_tree.hpp"
-#include "tracer/levels.hpp"
 #include "tracer/node_tree.hpp"
 #include "tracer/pack.hpp"
 #include "tracer/tracer.hpp"
@@ -18,25 +17,28 @@ namespace facet::tracer {
 
 class node_trees {
  public:
-  /// kind: not tree_kind::none.
+  /// kind: not tree_kind::none. in_order: triangles are put into leaf order, too.
   node_trees(const runtime::queue& q, const runtime::source_tree& kernels, const tuning& t,
-             tree_kind kind, leaf_rule leaves);
+             tree_kind kind, leaf_rule leaves, bool in_order = false);
 
   /// Over the triangles at corners[3i..3i+2], i < count; count > 0.
-  node_tree over_triangles(runtime::buffer<texel>& corners, std::uint32_t count);
+  /// sorted: given if they are put into order.
+  node_tree over_triangles(runtime::buffer<texel>& corners, std::uint32_t count,
+                           const leaf_triangles* sorted = nullptr);
   /// A caller's tree over those triangles. Throws runtime::exception (invalid) if it is none.
   node_tree from(const given_tree& given, std::span<const texel> corners);
 
   /// Device memory that over_triangles takes at its peak, the corners apart; what it gives
   /// included.
-  static std::uint64_t scratch_bytes(std::uint64_t triangles, tree_kind kind);
+  static std::uint64_t scratch_bytes(std::uint64_t triangles) {
+    return tree_builder<texel>::scratch_bytes(triangles);
+  }
 
   double compile_ms() const;
 
  private:
   leaf_rule leaves_;
-  std::optional<levels_builder> levels_;
-  std::optional<tree_builder<texel>> binned_;
+  tree_builder<texel> over_triangles_;
   tree_cutter cut_;
 };
 

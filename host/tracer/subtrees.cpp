@@ -12,7 +12,7 @@ subtrees::subtrees(const runtime::queue& q, const runtime::source_tree& kernels,
       scan_group_(t.scan_group),
       program_(compiled(q, kernels, "subtrees.cl",
                         t.flags() + " -DEACH=" + std::to_string(t.list_each) + "u")),
-      mark_(program_.get_kernel("mark_subtrees")),
+      mark_(program_.get_kernel(t.list_group > 1 ? "mark_subtrees" : "mark_subtrees_alone")),
       scan_(program_.get_kernel("scan_tiles")),
       list_(program_.get_kernel("list_subtrees")) {}
 
@@ -22,16 +22,18 @@ std::uint32_t subtrees::list(runtime::buffer<std::uint32_t>& codes, std::uint32_
   const std::uint32_t tiles = (count + tile - 1) / tile;
   hold(counts_, tiles);
   hold(marks_, std::size_t(tiles) * words);
-  steps.push_back({"mark_subtrees", queue_.submit([&](runtime::handler& h) {
-                     const runtime::accessor in{codes, h, runtime::read_only};
-                     const runtime::accessor marks{marks_, h, runtime::write_only};
-                     const runtime::accessor out{counts_, h, runtime::write_only};
-                     const runtime::local_accessor<std::uint8_t> common(tile + 2 * FACET_SWEEP_MOST,
-                                                                        h);
-                     const runtime::local_accessor<std::uint32_t> bits(words, h);
-                     h.set_args(in, marks, out, count, common, bits);
-                     h.parallel_for(in_groups(tiles, group_), mark_);
-                   })});
+  steps.push_back(
+      {"mark_subtrees", queue_.submit([&](runtime::handler& h) {
+         const runtime::accessor in{codes, h, runtime::read_only};
+         const runtime::accessor marks{marks_, h, runtime::write_only};
+         const runtime::accessor out{counts_, h, runtime::write_only};
+         h.set_args(in, marks, out, count);
+         if (group_ > 1) {
+           h.set_arg(4, runtime::local_accessor<std::uint8_t>(tile + 2 * FACET_SWEEP_MOST, h));
+           h.set_arg(5, runtime::local_accessor<std::uint32_t>(words, h));
+         }
+         h.parallel_for(in_groups(tiles, group_), mark_);
+       })});
   steps.push_back({"scan_tiles", queue_.submit([&](runtime::handler& h) {
                      const runtime::accessor counts{counts_, h, runtime::read_write};
                      const runtime::accessor total{total_, h, runtime::write_only};

@@ -25,14 +25,9 @@ top_level::top_level(const runtime::queue& q, const runtime::source_tree& kernel
                      tree_kind kind, bool is_wide)
     : queue_(q),
       group_(t.group),
+      builder_(q, kernels, t, kind, one_each),
       program_(compiled(q, kernels, "tree.cl", t.flags())),
       append_nodes_(program_.get_kernel("append_nodes")) {
-  if (kind == tree_kind::binned) {
-    binned_.emplace(q, kernels, t, one_each);
-  } else {
-    levels_.emplace(q, kernels, t);
-    cut_.emplace(q, kernels, t);
-  }
   if (is_wide) fold_.emplace(q, kernels, t);
 }
 
@@ -41,12 +36,9 @@ top_plan top_level::plan(const std::vector<Instance>& placed) {
   boxes.reserve(placed.size());
   for (const Instance& i : placed) boxes.push_back(box_of(i));
   runtime::buffer<Box> on_device(boxes.data(), boxes.size());
-  const auto count = std::uint32_t(boxes.size());
+  builder_.build(on_device, std::uint32_t(boxes.size()), tree_);
   top_plan p;
-  if (binned_)
-    binned_->build(on_device, count, tree_), p.tree = tree_;
-  else
-    p.tree = cut_->cut(levels_->build(on_device, count), one_each);
+  p.tree = tree_;
   if (fold_) p.fold = fold_->plan(p.tree);
   p.nodes = fold_ ? p.fold.nodes : p.tree.node_count;
   p.levels = fold_ ? p.fold.depth : p.tree.depth;
@@ -84,8 +76,7 @@ std::uint32_t top_level::write_narrow(top_plan& p, device_geometry& g, std::uint
 }
 
 double top_level::compile_ms() const {
-  return program_.build_ms() + (levels_ ? levels_->compile_ms() + cut_->compile_ms() : 0) +
-         (binned_ ? binned_->compile_ms() : 0) + (fold_ ? fold_->compile_ms() : 0);
+  return program_.build_ms() + builder_.compile_ms() + (fold_ ? fold_->compile_ms() : 0);
 }
 
 }  // namespace facet::tracer

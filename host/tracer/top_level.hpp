@@ -7,9 +7,7 @@
 #include <vector>
 
 #include "runtime/runtime.hpp"
-#include "tracer/cut_tree.hpp"
 #include "tracer/fold.hpp"
-#include "tracer/levels.hpp"
 #include "tracer/node_tree.hpp"
 #include "tracer/tracer.hpp"
 #include "tracer/tree_builder.hpp"
@@ -54,11 +52,9 @@ class top_level {
 
   runtime::queue queue_;
   std::uint32_t group_;
-  std::optional<levels_builder> levels_;
-  std::optional<tree_builder<Box>> binned_;
-  std::optional<tree_cutter> cut_;
+  tree_builder<Box> builder_;
   std::optional<folder> fold_;
-  node_tree tree_;  ///< of the last plan by `binned`: its memory is used again
+  node_tree tree_;  ///< of the last plan: its memory is used again
   runtime::program program_;
   runtime::kernel append_nodes_;
 };

@@ -40,13 +40,30 @@ void apply(const kernel_edit& e, runtime::source_tree& kernels) {
   text.replace(at, e.from.size(), e.to);
 }
 
+tuning tuning_with(const options& o, const runtime::device& d) {
+  tuning t = tuning_for(d);
+  t.more_flags = o.compiler_flags;
+  if (!o.defaults) return t;
+  if (const std::string fault = fault_of(*o.defaults, d); !fault.empty())
+    throw runtime::exception(runtime::errc::invalid,
+                             "defaults for " + d.name() + " that it cannot have: " + fault);
+  static_cast<choices&>(t) = *o.defaults;
+  return t;
+}
+
+bool is_in_images(const options& o, const tuning& t) {
+  return o.geometry == geometry_kind::image ||
+         (o.geometry == geometry_kind::automatic && t.image_geometry &&
+          o.layout != layout_kind::wide && o.packets != packet_kind::on);
+}
+
 bool is_wide(const options& o, bool in_images, const tuning& t) {
   if (o.layout == layout_kind::wide && in_images)
     throw runtime::exception(runtime::errc::invalid,
                              "geometry in images was asked for in the wide layout, which is for "
                              "buffers; use --geometry buffer, or the narrow layout");
-  return o.layout == layout_kind::wide ||
-         (o.layout == layout_kind::automatic && t.wide_layout && !in_images);
+  return o.layout == layout_kind::wide || (o.layout == layout_kind::automatic && !in_images &&
+                                           (t.wide_layout || o.packets == packet_kind::on));
 }
 
 bool is_in_packets(const options& o, bool is_wide, const tuning& t) {
@@ -81,11 +98,9 @@ const char* word_of(tree_kind kind) {
 
 device_scene::device_scene(runtime::queue queue, const scene& s, options o,
                            std::span<const given_tree> given) {
-  tuning tuned = tuning_for(queue.get_device());
-  tuned.more_flags = o.compiler_flags;
+  const tuning tuned = tuning_with(o, queue.get_device());
   const features used = o.all_features ? features::all() : features::of(s);
-  const bool in_images = o.geometry == geometry_kind::image ||
-                         (o.geometry == geometry_kind::automatic && tuned.image_geometry);
+  const bool in_images = is_in_images(o, tuned);
   const bool wide = is_wide(o, in_images, tuned);
   const bool in_packets = is_in_packets(o, wide, tuned);
   runtime::source_tree kernels =
@@ -247,6 +262,7 @@ void device_scene::state::describe(statistics& s) const {
   s.geometry = in_images ? "image" : "buffer";
   s.layout = geometry.is_wide ? "wide" : "narrow";
   s.rays_a_work_item = in_packets ? FACET_PACKET : 1;
+  s.is_tuned = chosen.defaults.has_value();
   s.features = used.names();
   s.tree_depth = geometry.depth;
   s.tree_nodes = geometry.nodes_used;

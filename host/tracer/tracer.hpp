@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "runtime/queue.hpp"
 #include "scene/picture.hpp"
 #include "scene/scene.hpp"
+#include "tracer/choices.hpp"
 
 namespace facet::tracer {
 
@@ -55,6 +57,9 @@ struct options {
   std::string kernel_folder;                        ///< read cl/ from here, not from the library
   std::vector<kernel_edit> edits;                   ///< how a variant differs, in order
   std::string compiler_flags;                       ///< added to those of every program
+  /// What `automatic` and work-groups of 0 mean, as measured on the device; none: by its kind
+  /// (tuning.hpp). What the fields above name goes before it.
+  std::optional<choices> defaults;
 };
 
 /// A binary tree over a mesh's triangles that the caller has made, in place of the device's. Only
@@ -125,6 +130,7 @@ struct statistics {
   std::string layout;                  ///< "wide" or "narrow", as chosen
   std::uint32_t rays_a_work_item = 1;  ///< or pixels
   bool is_split = false;               ///< render: by several kernels
+  bool is_tuned = false;               ///< by options::defaults, not by the kind of device
   std::string features;                ///< what the kernel was compiled with, comma-separated
   std::uint32_t tree_depth = 0;
   std::uint64_t tree_nodes = 0;

@@ -16,12 +16,12 @@ namespace {
 constexpr std::uint32_t image_width = 1u << 13;  ///< cl/geometry.h: FACET_IMAGE_BITS
 
 /// Bytes that building and keeping the geometry takes at its peak.
-std::uint64_t peak_bytes(std::uint64_t triangles, std::uint64_t largest_mesh, tree_kind kind,
-                         bool smooth, bool in_images) {
+std::uint64_t peak_bytes(std::uint64_t triangles, std::uint64_t largest_mesh, bool smooth,
+                         bool in_images) {
   const std::uint64_t corners = 48, normals = smooth ? 48u : 0u;
   const std::uint64_t kept = triangles * (sizeof(Node) + sizeof(TriangleInfo) + corners + normals);
   const std::uint64_t uploaded = triangles * (corners + normals + 4);
-  return kept + uploaded + node_trees::scratch_bytes(largest_mesh, kind) +
+  return kept + uploaded + node_trees::scratch_bytes(largest_mesh) +
          (in_images ? triangles * (corners + normals) : 0);
 }
 
@@ -121,14 +121,14 @@ device_geometry build_geometry(runtime::queue& q, const runtime::source_tree& ke
                                bool in_images, const tuning& t, std::span<const given_tree> given) {
   const std::size_t triangles = packed.world.triangle_count;
   const bool smooth = f.smooth;
-  const std::uint64_t peak = peak_bytes(triangles, largest_mesh(packed), kind, smooth, in_images);
+  const std::uint64_t peak = peak_bytes(triangles, largest_mesh(packed), smooth, in_images);
   check_memory(q.get_device(), triangles, peak);
 
   node_array array(q, kernels, t);
   leaf_order gather(q, kernels, t);
   std::optional<node_trees> build;
   if (kind != tree_kind::none)
-    build.emplace(q, kernels, t, kind, leaf_rule{t.leaf_sure, t.leaf_size});
+    build.emplace(q, kernels, t, kind, leaf_rule{t.leaf_sure, t.leaf_size}, true);
   std::optional<top_level> over_instances;
   if (kind != tree_kind::none && f.instances && !packed.instances.empty())
     over_instances.emplace(q, kernels, t, kind, false);
@@ -163,19 +163,20 @@ device_geometry build_geometry(runtime::queue& q, const runtime::source_tree& ke
     upload_ms += milliseconds_since(start_upload);
 
     const auto start_build = clock::now();
+    const leaf_triangles sorted{materials, g.corners, g.infos, m.first_triangle};
     runtime::buffer<std::uint32_t> order(1);
+    const bool is_given = k < given.size();
     if (kind == tree_kind::none) {
       order = identity_order(m.triangle_count);
     } else {
-      trees[k] =
-          k < given.size()
-              ? build->from(given[k], std::span<const texel>(packed.corners).subspan(first, size))
-              : build->over_triangles(corners, m.triangle_count);
+      trees[k] = is_given ? build->from(given[k],
+                                        std::span<const texel>(packed.corners).subspan(first, size))
+                          : build->over_triangles(corners, m.triangle_count, &sorted);
       order = trees[k]->order;
       g.mesh_nodes_used += trees[k]->node_count;
     }
-    gather.triangles(order, corners, materials, g.corners, g.infos, m.triangle_count,
-                     m.first_triangle);
+    if (kind == tree_kind::none || is_given)
+      gather.triangles(order, corners, m.triangle_count, sorted);
     if (smooth) {
       runtime::buffer<texel> normals(packed.normals.data() + first, size);
       gather.normals(order, normals, g.normals, m.triangle_count, m.first_triangle);

@@ -1,7 +1,11 @@
 #include "tracer/tree_builder.hpp"
 
 #include <algorithm>
+#include <optional>
 
+#include "tracer/levels.hpp"
+#include "tracer/morton.hpp"
+#include "tracer/radix_sort.hpp"
 #include "tracer/subtrees.hpp"
 #include "tracer/top_tree.hpp"
 
@@ -21,18 +25,52 @@ std::uint32_t usual_nodes(std::uint32_t count, leaf_rule leaves) {
 template <class Primitive>
 struct tree_builder<Primitive>::parts {
   parts(const runtime::queue& q, const runtime::source_tree& kernels, const tuning& t,
-        leaf_rule leaves)
-      : morton_codes(q, kernels, t),
-        sort(q, kernels, t),
-        cut(q, kernels, t),
-        bottom(q, kernels, t, leaves),
-        top(q, kernels, t) {}
+        tree_kind kind, leaf_rule leaves, bool in_order)
+      : morton_codes(q, kernels, t), sort(q, kernels, t), cut(q, kernels, t) {
+    // A group reads a subtree's triangles anyway. What a single work-item does is faster apart.
+    const bool at_once = in_order && !t.serial_trees;
+    if (kind == tree_kind::levels)
+      merge.emplace(q, kernels, t, leaves, at_once);
+    else
+      split.emplace(q, kernels, t, leaves, at_once);
+    if (in_order && !at_once) gather.emplace(q, kernels, t);
+  }
+
+  /// What `binned` is made by.
+  struct binned {
+    binned(const runtime::queue& q, const runtime::source_tree& kernels, const tuning& t,
+           leaf_rule leaves, bool in_order)
+        : bottom(q, kernels, t, leaves, in_order), top(q, kernels, t) {}
+
+    built_root build(runtime::buffer<Primitive>& primitives, runtime::buffer<Curve>& curve,
+                     const sorted_places& places, tree_parts& to, const leaf_triangles* sorted,
+                     std::vector<step>& steps) {
+      const std::uint32_t subtrees = places.subtrees;
+      built_root r{bottom.build(primitives, places.starts, subtrees, places.order, to, subtrees - 1,
+                                sorted, steps),
+                   0, 0};
+      if (r.nodes > to.nodes.size()) return r;
+      if (subtrees > 1) {
+        r.depth = top.build(curve, to, subtrees, steps);
+      } else {
+        const runtime::host_accessor refs{to.refs, runtime::read_only};
+        const runtime::host_accessor items{to.items, runtime::read_only};
+        r.root = refs[0];
+        r.depth = items[0].size >> FACET_HEIGHT_BIT;
+      }
+      return r;
+    }
+
+    bottoms<Primitive> bottom;
+    top_tree top;
+  };
 
   morton<Primitive> morton_codes;
   radix_sort<std::uint32_t> sort;
   subtrees cut;
-  bottoms<Primitive> bottom;
-  top_tree top;
+  std::optional<levels<Primitive>> merge;
+  std::optional<binned> split;
+  std::optional<leaf_order> gather;
   runtime::buffer<Curve> curve{1};
   runtime::buffer<std::uint32_t> codes{1};
   runtime::buffer<Item> items{1};
@@ -41,8 +79,9 @@ struct tree_builder<Primitive>::parts {
 
 template <class Primitive>
 tree_builder<Primitive>::tree_builder(const runtime::queue& q, const runtime::source_tree& kernels,
-                                      const tuning& t, leaf_rule leaves)
-    : leaves_(leaves), parts_(std::make_unique<parts>(q, kernels, t, leaves)) {}
+                                      const tuning& t, tree_kind kind, leaf_rule leaves,
+                                      bool in_order)
+    : leaves_(leaves), parts_(std::make_unique<parts>(q, kernels, t, kind, leaves, in_order)) {}
 
 template <class Primitive>
 tree_builder<Primitive>::tree_builder(tree_builder&&) noexcept = default;
@@ -53,23 +92,25 @@ template <class Primitive>
 double tree_builder<Primitive>::compile_ms() const {
   const parts& p = *parts_;
   return p.morton_codes.compile_ms() + p.sort.compile_ms() + p.cut.compile_ms() +
-         p.bottom.compile_ms() + p.top.compile_ms();
+         (p.gather ? p.gather->compile_ms() : 0) +
+         (p.merge ? p.merge->compile_ms()
+                  : p.split->bottom.compile_ms() + p.split->top.compile_ms());
 }
 
 template <class Primitive>
 void tree_builder<Primitive>::build(runtime::buffer<Primitive>& primitives, std::uint32_t count,
-                                    node_tree& into) {
+                                    node_tree& into, const leaf_triangles* sorted) {
   hold(into.nodes, std::max(usual_nodes(count, leaves_), 1u));
   hold(into.order, count);
-  try_build(primitives, count, into);
+  try_build(primitives, count, into, sorted);
   if (into.node_count <= into.nodes.size()) return;
   hold(into.nodes, count);
-  try_build(primitives, count, into);
+  try_build(primitives, count, into, sorted);
 }
 
 template <class Primitive>
 void tree_builder<Primitive>::try_build(runtime::buffer<Primitive>& primitives, std::uint32_t count,
-                                        node_tree& t) {
+                                        node_tree& t, const leaf_triangles* sorted) {
   parts& p = *parts_;
   steps_.clear();
   hold(p.codes, count);
@@ -79,17 +120,15 @@ void tree_builder<Primitive>::try_build(runtime::buffer<Primitive>& primitives, 
   hold(p.items, found);
   hold(p.refs, found);
   tree_parts to{t.nodes, p.items, p.refs};
-  t.node_count = p.bottom.build(primitives, p.cut.starts(), found, t.order, to, found - 1, steps_);
-  if (t.node_count > t.nodes.size()) return;
-  if (found > 1) {
-    t.root = 0;
-    t.depth = p.top.build(p.curve, to, found, steps_);
-  } else {
-    const runtime::host_accessor refs{p.refs, runtime::read_only};
-    const runtime::host_accessor items{p.items, runtime::read_only};
-    t.root = refs[0];
-    t.depth = items[0].size >> FACET_HEIGHT_BIT;
-  }
+  const sorted_places places{p.codes, t.order, p.cut.starts(), count, found};
+  const leaf_triangles* at_once = p.gather ? nullptr : sorted;
+  const built_root r = p.merge ? p.merge->build(primitives, places, to, at_once, steps_)
+                               : p.split->build(primitives, p.curve, places, to, at_once, steps_);
+  if constexpr (std::is_same_v<Primitive, texel>)
+    if (p.gather)
+      steps_.push_back(
+          {"gather_triangles", p.gather->triangles(t.order, primitives, count, *sorted)});
+  t.node_count = r.nodes, t.root = r.root, t.depth = r.depth;
 }
 
 template <class Primitive>

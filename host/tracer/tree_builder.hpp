@@ -1,20 +1,25 @@
 // Binary trees, built on the device: what every layout is made from.
 //
-// Primitives are sorted along a Morton curve. The largest subtrees of the radix tree over the
-// sorted codes that have at most 32 primitives get a tree each, by trying every split (cl/sweep.h);
-// over these subtrees' boxes a tree is built from the root down, by bins (cl/top.cl). So most of
-// the work is local, and what is global works on n / 20 items. The tree is the same on every run
-// and device; which index a node has is not.
+// Primitives are sorted along a Morton curve, and the largest subtrees of the radix tree over the
+// sorted codes that have at most 32 primitives are found. `levels` keeps that tree (levels.hpp).
+// `binned` gives each of these subtrees a tree of its own, by trying every split (cl/sweep.h), and
+// builds a tree over their boxes from the root down, by bins (cl/top.cl). So most of the work is
+// local, and what is global works on n / 20 items. The tree is the same on every run and device;
+// which index a node has is not.
 #pragma once
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "runtime/runtime.hpp"
-#include "tracer/bottoms.hpp"
-#include "tracer/morton.hpp"
+#include "tracer/leaf_order.hpp"
+#include "tracer/leaf_rule.hpp"
 #include "tracer/node_tree.hpp"
-#include "tracer/radix_sort.hpp"
+#include "tracer/pack.hpp"
+#include "tracer/step.hpp"
+#include "tracer/tracer.hpp"
+#include "tracer/tuning.hpp"
 
 namespace facet::tracer {
 
@@ -22,14 +27,16 @@ namespace facet::tracer {
 template <class Primitive>
 class tree_builder {
  public:
+  /// kind: not tree_kind::none. in_order: triangles are put into leaf order, too.
   tree_builder(const runtime::queue& q, const runtime::source_tree& kernels, const tuning& t,
-               leaf_rule leaves);
+               tree_kind kind, leaf_rule leaves, bool in_order = false);
   tree_builder(tree_builder&&) noexcept;
   ~tree_builder();
 
-  /// The tree over the first `count` > 0 primitives; finite ones. A child's index is larger than
-  /// its parent's. Memory that `into` holds is used again where it is enough.
-  void build(runtime::buffer<Primitive>& primitives, std::uint32_t count, node_tree& into);
+  /// The tree over the first `count` > 0 primitives; finite ones. Memory that `into` holds is used
+  /// again where it is enough. sorted: given if the builder is in_order.
+  void build(runtime::buffer<Primitive>& primitives, std::uint32_t count, node_tree& into,
+             const leaf_triangles* sorted = nullptr);
 
   /// Bytes of device memory that a build takes at its peak beside its primitives, what it returns
   /// included.
@@ -41,7 +48,8 @@ class tree_builder {
 
  private:
   struct parts;
-  void try_build(runtime::buffer<Primitive>& primitives, std::uint32_t count, node_tree& t);
+  void try_build(runtime::buffer<Primitive>& primitives, std::uint32_t count, node_tree& t,
+                 const leaf_triangles* sorted);
 
   leaf_rule leaves_;
   std::vector<step> steps_;

@@ -10,6 +10,20 @@ std::string tuning::flags() const {
   return options;
 }
 
+void tuning::build_in_groups() {
+  serial_trees = false;
+  list_group = 256;
+  list_each = 4;
+  scan_group = 256;
+}
+
+void tuning::build_alone() {
+  serial_trees = true;
+  list_group = 1;
+  list_each = 1024;
+  scan_group = 1;
+}
+
 std::string register_cap(std::uint32_t registers) {
   return registers == 0 ? "" : " -cl-nv-maxrregcount=" + std::to_string(registers);
 }
@@ -28,13 +42,10 @@ tuning tuning_for(const runtime::device& d) {
   t.warps = d.nvidia_compute_capability() >= 70;
   if (d.is_gpu()) {
     t.bounds_group = 256;
-    t.serial_trees = false;
+    t.build_in_groups();
     t.split_render = true;
     t.refit_group = 64;
     t.refit_nodes = 8;
-    t.list_group = 256;
-    t.list_each = 4;
-    t.scan_group = 256;
   }
   return t;
 }

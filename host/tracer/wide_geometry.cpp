@@ -60,7 +60,7 @@ class wide_builder {
     const std::uint64_t largest = largest_mesh(packed_);
     check_memory(
         q.get_device(), triangles_,
-        triangles_ * uploaded_bytes + (has_trees() ? node_trees::scratch_bytes(largest, kind) : 0));
+        triangles_ * uploaded_bytes + (has_trees() ? node_trees::scratch_bytes(largest) : 0));
   }
 
   device_geometry build(std::span<const given_tree> given) {

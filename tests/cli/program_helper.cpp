@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstring>
@@ -32,9 +33,13 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
 /// names set twice are dropped.
 std::vector<std::string> environment_with(const std::vector<std::string>& added) {
   std::vector<std::string> all = added;
+  const bool names_table = std::any_of(added.begin(), added.end(), [](const std::string& a) {
+    return a.starts_with("FACET_TUNING=") || a.starts_with("XDG_CONFIG_HOME=");
+  });
+  if (!names_table) all.push_back("FACET_TUNING=");
   for (char** e = environ; *e; ++e) {
     const std::string name = std::string(*e).substr(0, std::string(*e).find('=') + 1);
-    bool replaced = false;
+    bool replaced = name == "FACET_TUNING=";
     for (const std::string& a : added) replaced |= a.compare(0, name.size(), name) == 0;
     if (!replaced) all.push_back(*e);
   }

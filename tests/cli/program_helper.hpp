@@ -11,7 +11,8 @@
 namespace facet::test {
 
 struct surroundings {
-  /// Set in the program's environment: "NAME=VALUE".
+  /// Set in the program's environment: "NAME=VALUE". A user's own table of tuned defaults is never
+  /// read: FACET_TUNING is empty, unless it or a folder that tables lie in is named here.
   std::vector<std::string> environment;
   /// RLIMIT_AS in bytes; 0: none.
   std::uint64_t address_space = 0;

@@ -5,27 +5,16 @@
 
 #include <cstdlib>
 
+#include "sanitized.hpp"
 #include "study/cases/cases.hpp"
 #include "study/cases/report.hpp"
 #include "tracer/device_helper.hpp"
 
 namespace facet::test {
 
-/// 10^4 rays; under sanitizers, which make the oracles several times slower, 2000.
-inline std::uint64_t case_rays() {
-#if defined(__SANITIZE_ADDRESS__)
-  return 2000;
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-  return 2000;
-#endif
-#endif
-  return 10000;
-}
-
 inline void check_case(int number) {
   study::lab l{queue()};
-  l.rays = case_rays();
+  l.rays = fewer(10000);
   l.threads = 2;
   for (const study::hard_case& c : study::hard_cases()) {
     if (c.number != number) continue;

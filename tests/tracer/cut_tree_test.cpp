@@ -6,8 +6,8 @@
 #include <functional>
 
 #include "tracer/device_helper.hpp"
+#include "tracer/given_tree.hpp"
 #include "tracer/kernels.hpp"
-#include "tracer/levels.hpp"
 #include "tracer/random_helper.hpp"
 
 using namespace facet;
@@ -16,14 +16,34 @@ using test::content;
 
 namespace {
 
-std::vector<Box> random_boxes(std::uint32_t n) {
+std::vector<texel> random_corners(std::uint32_t n) {
   test::random r(n);
-  std::vector<Box> boxes;
+  std::vector<texel> corners;
   for (std::uint32_t i = 0; i < n; ++i) {
-    const vec3f lo = r.in_cube(), hi = lo + vec3f{r.uniform(), r.uniform(), r.uniform()} * 0.1f;
-    boxes.push_back({{lo.x, lo.y, lo.z}, 0, {hi.x, hi.y, hi.z}, 0});
+    const vec3f p = r.in_cube();
+    for (int k = 0; k < 3; ++k) {
+      const vec3f q = p + vec3f{r.uniform(), r.uniform(), r.uniform()} * 0.1f;
+      corners.push_back({q.x, q.y, q.z, 0});
+    }
   }
-  return boxes;
+  return corners;
+}
+
+/// Ranges are parted at random, down to single triangles.
+given_tree random_tree(std::uint32_t n) {
+  test::random r(n);
+  given_tree t;
+  t.nodes.push_back({0, n});
+  for (std::uint32_t i = 0; i < n; ++i) t.order.push_back(i);
+  for (std::size_t at = 0; at < t.nodes.size(); ++at) {
+    const auto [first, count] = t.nodes[at];
+    if (count == 1) continue;
+    const std::uint32_t left = 1 + r.below(count - 1);
+    t.nodes[at] = {std::uint32_t(t.nodes.size()), 0};
+    t.nodes.push_back({first, left});
+    t.nodes.push_back({first + left, count - left});
+  }
+  return t;
 }
 
 }  // namespace
@@ -31,15 +51,15 @@ std::vector<Box> random_boxes(std::uint32_t n) {
 TEST_CASE("cut: the same tree, but that subtrees that fit a leaf are one") {
   runtime::queue& q = test::queue();
   const tuning t = tuning_for(test::device());
-  levels_builder levels(q, kernel_sources(), t);
   tree_cutter cutter(q, kernel_sources(), t);
   for (std::uint32_t n : {1u, 2u, 3u, 8u, 9u, 17u, 1000u, 5000u})
     for (std::uint32_t leaf_size : {1u, 8u}) {
       CAPTURE(n);
       CAPTURE(leaf_size);
-      const auto boxes = random_boxes(n);
-      runtime::buffer<Box> on_device(boxes.data(), boxes.size());
-      const binary_tree binary = levels.build(on_device, n);
+      const host_binary_tree made = binary_of(random_tree(n), random_corners(n));
+      const binary_tree binary{runtime::buffer<TreeNode>(made.nodes.data(), made.nodes.size()),
+                               runtime::buffer<std::uint32_t>(made.order.data(), n), n, made.root,
+                               made.depth};
       const node_tree cut = cutter.cut(binary, {leaf_size, leaf_size});
       CHECK(content(cut.order) == content(binary.order));
       const auto from = content(binary.nodes);

@@ -3,12 +3,14 @@
 
 #include <vector>
 
+#include "sanitized.hpp"
 #include "tracer/device_helper.hpp"
 #include "tracer/reference_helper.hpp"
 #include "tracer/scenes_helper.hpp"
 #include "tracer/tracer.hpp"
 
 using namespace facet;
+using test::fewer;
 using test::same_bits;
 using test::to_reference;
 using tracer::device_scene;
@@ -77,17 +79,17 @@ void check_hits(const scene& s, const std::vector<ray>& rays) {
 }  // namespace
 
 TEST_CASE("one mesh: every tree, geometry and feature set gives the reference's bits") {
-  check_hits(test::one_mesh(test::random_soup(500, 1)), test::random_rays(4000, 1));
+  check_hits(test::one_mesh(test::random_soup(500, 1)), test::random_rays(fewer(4000), 1));
 }
 
 TEST_CASE("instances, stretched, mirrored, tiny and huge, give the reference's bits") {
-  check_hits(test::many_instances(), test::random_rays(2000, 2, 2));
+  check_hits(test::many_instances(), test::random_rays(fewer(2000), 2, 2));
 }
 
 TEST_CASE("a closed smooth mesh gives the reference's bits, from inside and outside") {
   check_hits(
       test::one_mesh(generate("torus_knot", {{"segments", 64}, {"sides", 8}, {"smooth", 1}})),
-      test::random_rays(4000, 3));
+      test::random_rays(fewer(4000), 3));
 }
 
 TEST_CASE("meshes of few triangles, at every size around a leaf of either layout") {
@@ -97,7 +99,7 @@ TEST_CASE("meshes of few triangles, at every size around a leaf of either layout
     for (vec3f& p : m.positions) p = p * 2.0f;
     const scene s = test::one_mesh(m);
     const reference::tracer<float> serial(s);
-    const auto rays = test::random_rays(500, n);
+    const auto rays = test::random_rays(fewer(500), n);
     for (const layout_kind layout : {layout_kind::narrow, layout_kind::wide}) {
       options o;
       o.layout = layout;
@@ -144,7 +146,7 @@ TEST_CASE("triangles without an area are never hit, as in the reference") {
     m.positions.insert(m.positions.end(), {from, from + by, from + by * 3.0f});
     m.indices.insert(m.indices.end(), {first, first + 1, first + 2});
   }
-  std::vector<ray> rays = test::random_rays(2000, 4);
+  std::vector<ray> rays = test::random_rays(fewer(2000), 4);
   for (int k = 0; k < 400; ++k) {  // through points of the lines
     const vec3f a = m.positions[std::size_t(150 + 3 * k)],
                 b = m.positions[std::size_t(152 + 3 * k)];

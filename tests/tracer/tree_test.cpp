@@ -18,10 +18,13 @@ using test::content;
 
 namespace {
 
-device_geometry geometry_of(const scene& s, tree_kind kind, bool in_images = false) {
+device_geometry geometry_of(const scene& s, tree_kind kind, bool in_images, const tuning& t) {
   const features f = features::of(s);
-  return build_geometry(test::queue(), kernel_sources(), pack(s, f.smooth), f, kind, in_images,
-                        tuning_for(test::device()));
+  return build_geometry(test::queue(), kernel_sources(), pack(s, f.smooth), f, kind, in_images, t);
+}
+
+device_geometry geometry_of(const scene& s, tree_kind kind, bool in_images = false) {
+  return geometry_of(s, kind, in_images, tuning_for(test::device()));
 }
 
 }  // namespace
@@ -34,9 +37,10 @@ TEST_CASE("each triangle is in one leaf, every node holds what is below it, the 
     const auto nodes = content(g.nodes);
     const auto corners = content(g.corners);
     std::multiset<std::uint32_t> slots;
-    std::uint32_t escaped = 0;
+    std::uint32_t escaped = 0, leaves = 0;
     test::tree_walk<Node> w{nodes, {}};
     w.at_leaf = [&](std::uint32_t leaf, const test::tree_way& way) {
+      ++leaves;
       for (std::uint32_t k = 0; k < FACET_LEAF_COUNT(leaf); ++k) {
         const std::uint32_t slot = FACET_LEAF_FIRST(leaf) + k;
         slots.insert(slot);
@@ -52,7 +56,7 @@ TEST_CASE("each triangle is in one leaf, every node holds what is below it, the 
     CHECK(std::set<std::uint32_t>(slots.begin(), slots.end()).size() == n);
     CHECK(w.deepest <= g.depth);
     CHECK(g.stack >= w.deepest);
-    CHECK(g.nodes_used == nodes.size() - (n <= 2));  // of 1, which then is none's
+    CHECK(g.nodes_used == w.visited - leaves);
   }
 }
 
@@ -60,18 +64,29 @@ TEST_CASE("triangles in leaf order are those of the mesh, each once, with its ma
   scene s = test::one_mesh(test::random_soup(777, 3));
   s.materials.resize(5);
   for (std::uint32_t t = 0; t < 777; ++t) s.meshes[0].materials.push_back(t % 5);
-  const device_geometry g = geometry_of(s, tree_kind::levels);
-  const auto corners = content(g.corners);
-  const auto infos = content(g.infos);
-  std::set<std::uint32_t> seen;
-  for (std::size_t slot = 0; slot < 777; ++slot) {
-    const std::uint32_t t = infos[slot].triangle;
-    seen.insert(t);
-    CHECK(infos[slot].material == t % 5);
-    const vec3f p = s.meshes[0].position(t, 1);
-    CHECK(corners[3 * slot + 1] == texel{p.x, p.y, p.z, 0});
-  }
-  CHECK(seen.size() == 777);
+  for (const tree_kind kind : {tree_kind::levels, tree_kind::binned, tree_kind::none})
+    for (const bool is_serial : {false, true}) {
+      CAPTURE(word_of(kind));
+      CAPTURE(is_serial);
+      tuning t = tuning_for(test::device());
+      is_serial ? t.build_alone() : t.build_in_groups();
+      const device_geometry g = geometry_of(s, kind, false, t);
+      const auto corners = content(g.corners);
+      const auto infos = content(g.infos);
+      std::set<std::uint32_t> seen;
+      std::size_t wrong = 0;
+      for (std::uint32_t slot = 0; slot < 777; ++slot) {
+        const std::uint32_t triangle = infos[slot].triangle;
+        seen.insert(triangle);
+        wrong += infos[slot].material != triangle % 5;
+        for (int k = 0; k < 3; ++k) {
+          const vec3f p = s.meshes[0].position(triangle, k);
+          wrong += corners[3 * slot + std::uint32_t(k)] != texel{p.x, p.y, p.z, 0};
+        }
+      }
+      CHECK(seen.size() == 777);
+      CHECK(wrong == 0);
+    }
 }
 
 TEST_CASE("without a tree the order is the mesh's own") {

@@ -1,4 +1,4 @@
-#include "bench/still_life.hpp"
+#include "study/still_life.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "scene/generate.hpp"
 
-namespace facet::bench {
+namespace facet::study {
 namespace {
 
 enum : std::uint32_t { clay, glass, mirror, floor_stone };
@@ -77,4 +77,4 @@ scene still_life(mesh m) {
   return s;
 }
 
-}  // namespace facet::bench
+}  // namespace facet::study

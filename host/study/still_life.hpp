@@ -4,9 +4,9 @@
 
 #include "scene/scene.hpp"
 
-namespace facet::bench {
+namespace facet::study {
 
 /// 1920x1080 pixels, 5 bounces; the mesh is scaled to a longest side of 1 and stands on the floor.
 scene still_life(mesh m);
 
-}  // namespace facet::bench
+}  // namespace facet::study
