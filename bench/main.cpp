@@ -20,6 +20,7 @@ int main(int argc, char** argv) {
   facet::bench::add_growth_row(app);
   facet::bench::add_sort_row(app);
   facet::bench::add_fold_row(app);
+  facet::bench::add_move_row(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -35,6 +35,7 @@ SECTIONS = {
     "facet-bench-render": (1, "pictures-by-way", "Whole pictures, by several ways", report_benches.render),
     "facet-bench-sort": (1, "sorting", "Sorting, beside peers", report_benches.sort),
     "facet-bench-fold": (1, "folding", "Folding", report_benches.fold),
+    "facet-bench-move": (1, "moving", "Scenes that move", report_benches.move),
     "facet-bench-reference": (1, "reference", "The serial reference, beside a peer",
                               report_benches.reference),
 }

@@ -248,6 +248,28 @@ def fold(root, _):
                    "#nodes written", "#blocks written", "#first run, in all"), rows)]
 
 
+def move(root, _):
+    def sides(*nodes):
+        return [f"{number(n['median'].get(float))} {ends(*(number(n[e].get(float)) for e in ('least', 'most')))}"
+                for n in nodes]
+
+    def share(r, rays):
+        return _ratio(r[rays]["ratio"]) if r.find(rays) else "\N{EN DASH}"
+
+    waves = [(r["mesh"].get(str), number(r["triangles"].get(int)), f"{r['amplitude'].get(float):g}",
+              *sides(r["move"]["ms"], r["anew"]["ms"], r["move"]["build_ms"], r["anew"]["build_ms"]),
+              *(f"{r['sah_cost'][side].get(float):.2f}" for side in ("moved", "anew")),
+              share(r, "primary"), share(r, "bounce")) for r in root["results"].items()]
+    placed = [(number(r["instances"].get(int)), *sides(r["move"]["ms"], r["anew"]["ms"]),
+               number(r["times_as_fast"].get(float))) for r in root["instances"].items()]
+    return [table("Vertices that follow waves, against the scene made anew: milliseconds by the host's clock, median "
+                  "(least\N{EN DASH}most); rates of the moved tree as shares of the new one's",
+                  ("mesh", "#triangles", "#amplitude", "#moving", "#made anew", "#corners and boxes",
+                   "#building", "#SAH cost, moved", "#anew", "#eye rays", "#bounce rays"), waves),
+            table("Instances that move: milliseconds, likewise",
+                  ("#instances", "#moving", "#made anew", "#times as fast"), placed)]
+
+
 def render(root, _):
     rows = []
     for r in root["results"].items():

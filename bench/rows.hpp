@@ -32,4 +32,7 @@ void add_sort_row(CLI::App& app);
 /// From a binary tree to the wide layout on a device.
 void add_fold_row(CLI::App& app);
 
+/// Scenes that move on a device against ones that are made anew.
+void add_move_row(CLI::App& app);
+
 }  // namespace facet::bench

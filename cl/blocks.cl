@@ -1,11 +1,5 @@
 // Triangles in blocks, a leaf each (layout.h: TriangleBlock), and what belongs to their slots.
-//
-// A lane without a triangle repeats a corner of the block's first one: a, a, b. No ray meets it, by
-// triangle.h. With the sheared corners p, p, q the rough edge functions are P - Q, Q - P and 0 with
-// the same rounded P and Q: of opposite signs, unless P = Q. Then the exact ones, which are the
-// difference of the two products' rounding errors, are opposite, too, or 0, and so is their sum.
-// Whatever else its slot has is the first triangle's.
-#include "vec.h"
+#include "blocks.h"
 
 // So many blocks ahead a leaf's triangles are asked for: they are read from all over the mesh.
 #define AHEAD 6u
@@ -25,10 +19,6 @@ static inline void fetch_leaf(__global const uint* order, __global const float4*
   }
 }
 
-// Lane's coordinate, of eight corners.
-#define LANES(p, axis) \
-  (float8)(p[0].axis, p[1].axis, p[2].axis, p[3].axis, p[4].axis, p[5].axis, p[6].axis, p[7].axis)
-
 // leaves[i], of `count`, is block first_block + i: its triangles, as places of `order`. A work-item makes
 // `run` blocks in a row. Blocks are 18 float4 each.
 __kernel void make_blocks(__global const uint* leaves, __global const uint* order,
@@ -41,9 +31,7 @@ __kernel void make_blocks(__global const uint* leaves, __global const uint* orde
     if (i + AHEAD < end) fetch_leaf(order, corners, materials, leaves[i + AHEAD]);
     const uint leaf = leaves[i], present = FACET_LEAF_COUNT(leaf);
     const size_t a = 3u * (size_t)lane_triangle(order, leaf, 0u);
-    const float4 p0 = corners[a], p1 = corners[a + 1u];
-    const bool is_point = p0.x == p1.x && p0.y == p1.y && p0.z == p1.z;
-    const uint absent[3] = {0u, 0u, is_point ? 2u : 1u};
+    const float3 p0 = corners[a].xyz, p1 = corners[a + 1u].xyz;
     size_t triangle[FACET_BLOCK];
     for (uint lane = 0u; lane < FACET_BLOCK; ++lane) triangle[lane] = lane_triangle(order, leaf, lane);
 
@@ -52,7 +40,7 @@ __kernel void make_blocks(__global const uint* leaves, __global const uint* orde
     for (uint k = 0u; k < 3u; ++k) {
       float4 p[FACET_BLOCK];
       for (uint lane = 0u; lane < FACET_BLOCK; ++lane)
-        p[lane] = corners[3u * triangle[lane] + (lane < present ? k : absent[k])];
+        p[lane] = corners[3u * triangle[lane] + (lane < present ? k : absent_corner(k, p0, p1))];
       STORE_PAST_CACHES(LANES(p, x), &to[3u * k]);
       STORE_PAST_CACHES(LANES(p, y), &to[3u * k + 1u]);
       STORE_PAST_CACHES(LANES(p, z), &to[3u * k + 2u]);

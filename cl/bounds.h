@@ -23,6 +23,14 @@ static inline Bounds joined(Bounds a, Bounds b) {
   return c;
 }
 
+// Of a node's child.
+static inline Bounds side_bounds(__global const Node* n, uint side) {
+  Bounds b;
+  b.lo = (float3)(n->x[0][side], n->y[0][side], n->z[0][side]);
+  b.hi = (float3)(n->x[1][side], n->y[1][side], n->z[1][side]);
+  return b;
+}
+
 // Half the surface. The order of the operations is part of every tree: builders that work by other
 // means get the same bits (cl/serial_sweep.h).
 static inline float half_area(Bounds b) {

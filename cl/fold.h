@@ -37,13 +37,6 @@ static inline Ways ways_at(__global const FoldCost* cost) {
   return w;
 }
 
-static inline Bounds side_bounds(__global const Node* n, uint side) {
-  Bounds b;
-  b.lo = (float3)(n->x[0][side], n->y[0][side], n->z[0][side]);
-  b.hi = (float3)(n->x[1][side], n->y[1][side], n->z[1][side]);
-  return b;
-}
-
 // The fewest places that cost as little: lane k - 1 becomes the best of lanes 0 to k - 1, the lower one
 // of equals. Takes from the lane `by` lower, where there is one; marks the lanes that took.
 #define TAKE_FEWER(w, taken, by, SHIFTED)                                                   \

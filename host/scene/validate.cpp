@@ -60,8 +60,11 @@ class checker {
 
   void meshes() const {
     count("/meshes", scene_.triangle_count(), limits::triangles, "triangles");
-    for (std::size_t i = 0; i < scene_.meshes.size(); ++i)
-      mesh_rules(scene_.meshes[i], named("/meshes", scene_.meshes[i].name, i));
+    for (std::size_t i = 0; i < scene_.meshes.size(); ++i) one_mesh(i);
+  }
+
+  void one_mesh(std::size_t i) const {
+    mesh_rules(scene_.meshes[i], named("/meshes", scene_.meshes[i].name, i));
   }
 
   void instances() const {
@@ -78,7 +81,7 @@ class checker {
         fail(member("/instances", i, "material"), "is material " + std::to_string(placed.material) +
                                                       "; the scene has " +
                                                       std::to_string(scene_.materials.size()));
-      transform_rules(placed.world_from_object, bounds[placed.mesh], i);
+      validate_transform(placed.world_from_object, bounds[placed.mesh], i, file_);
     }
   }
 
@@ -207,34 +210,6 @@ class checker {
                         ", counted from 0");
   }
 
-  void transform_rules(const transform& t, const box3f& bounds, std::size_t index) const {
-    const std::string place = member("/instances", index, "transform");
-    double rows = 1;
-    for (const auto& r : t.row) {
-      for (double v : r)
-        if (!std::isfinite(v)) fail(place, "holds a number that is not finite");
-      rows *= std::hypot(r[0], r[1], r[2]);
-    }
-    // The determinant's 6 products are at most `rows` each and the sum is rounded fewer than 9
-    // times by 2^-53, so below 54 * 2^-53 < 2^-47 of `rows` it is nothing but rounding.
-    if (!(std::abs(t.determinant()) > 0x1p-47 * rows))
-      fail(place,
-           "is singular: it flattens the mesh (a scale of 0, or rows that depend on each other); "
-           "use a thin scale such as 0.001");
-    const transform inverse = t.inverse();
-    for (const transform* each : {&t, &inverse})
-      for (const auto& r : each->row)
-        for (double v : r)
-          if (!(std::abs(v) <= double(limits::coordinate)))
-            fail(place, "or its inverse holds " + text_of(v) + "; at most 1e18 in size is allowed");
-    const box3d box = world_box<double>(t, bounds);
-    for (vec3d corner : {box.lo, box.hi})
-      for (int i = 0; i < 3; ++i)
-        if (!(std::abs(corner[i]) <= double(limits::coordinate)))
-          fail(place, "moves the mesh to the coordinate " + text_of(corner[i]) +
-                          "; coordinates may be at most 1e18 in size");
-  }
-
   const scene& scene_;
   const std::string& file_;
 };
@@ -249,6 +224,41 @@ void validate(const scene& s, const std::string& file) {
   check.meshes();
   check.instances();
   check.lights();
+}
+
+void validate_transform(const transform& t, const box3f& mesh_bounds, std::size_t index,
+                        const std::string& file) {
+  const auto fail = [&](const std::string& what) {
+    throw scene_error(file, place_in(place_in("/instances", index), "transform"), what);
+  };
+  double rows = 1;
+  for (const auto& r : t.row) {
+    for (double v : r)
+      if (!std::isfinite(v)) fail("holds a number that is not finite");
+    rows *= std::hypot(r[0], r[1], r[2]);
+  }
+  // The determinant's 6 products are at most `rows` each and the sum is rounded fewer than 9
+  // times by 2^-53, so below 54 * 2^-53 < 2^-47 of `rows` it is nothing but rounding.
+  if (!(std::abs(t.determinant()) > 0x1p-47 * rows))
+    fail(
+        "is singular: it flattens the mesh (a scale of 0, or rows that depend on each other); "
+        "use a thin scale such as 0.001");
+  const transform inverse = t.inverse();
+  for (const transform* each : {&t, &inverse})
+    for (const auto& r : each->row)
+      for (double v : r)
+        if (!(std::abs(v) <= double(limits::coordinate)))
+          fail("or its inverse holds " + text_of(v) + "; at most 1e18 in size is allowed");
+  const box3d box = world_box<double>(t, mesh_bounds);
+  for (vec3d corner : {box.lo, box.hi})
+    for (int i = 0; i < 3; ++i)
+      if (!(std::abs(corner[i]) <= double(limits::coordinate)))
+        fail("moves the mesh to the coordinate " + text_of(corner[i]) +
+             "; coordinates may be at most 1e18 in size");
+}
+
+void validate_mesh(const scene& s, std::size_t mesh, const std::string& file) {
+  checker(s, file).one_mesh(mesh);
 }
 
 }  // namespace facet

@@ -15,4 +15,11 @@ namespace facet {
 /// name, or by their index where they have none.
 void validate(const scene& s, const std::string& file);
 
+/// Those of them that are about one mesh. It is one of the scene's.
+void validate_mesh(const scene& s, std::size_t mesh, const std::string& file);
+
+/// Those of the transform of instance `index`, over a mesh with these bounds.
+void validate_transform(const transform& t, const box3f& mesh_bounds, std::size_t index,
+                        const std::string& file);
+
 }  // namespace facet

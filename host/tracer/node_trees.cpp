@@ -1,45 +1,20 @@
 #include "tracer/node_trees.hpp"
 
-#include <algorithm>
-
 #include "tracer/given_tree.hpp"
 
 namespace facet::tracer {
-namespace {
-
-Box box_of(const Instance& i) {
-  Box b{};
-  std::copy(std::begin(i.lo), std::end(i.lo), b.lo);
-  std::copy(std::begin(i.hi), std::end(i.hi), b.hi);
-  return b;
-}
-
-}  // namespace
-
 node_trees::node_trees(const runtime::queue& q, const runtime::source_tree& kernels,
                        const tuning& t, tree_kind kind, leaf_rule leaves, bool in_order)
     : queue_(q),
       kernels_(kernels),
       tuning_(t),
       leaves_(leaves),
-      kind_(kind),
       over_triangles_(q, kernels, t, kind, leaves, in_order) {}
 
 node_tree node_trees::over_triangles(runtime::buffer<texel>& corners, std::uint32_t count,
                                      const leaf_triangles* sorted) {
   node_tree tree;
   over_triangles_.build(corners, count, tree, sorted);
-  return tree;
-}
-
-node_tree node_trees::over_instances(const std::vector<Instance>& placed) {
-  std::vector<Box> boxes;
-  boxes.reserve(placed.size());
-  for (const Instance& i : placed) boxes.push_back(box_of(i));
-  runtime::buffer<Box> on_device(boxes.data(), boxes.size());
-  if (!over_boxes_) over_boxes_.emplace(queue_, kernels_, tuning_, kind_, one_each);
-  node_tree tree;
-  over_boxes_->build(on_device, std::uint32_t(boxes.size()), tree);
   return tree;
 }
 
@@ -53,8 +28,7 @@ node_tree node_trees::from(const given_tree& given, std::span<const texel> corne
 }
 
 double node_trees::compile_ms() const {
-  return (cut_ ? cut_->compile_ms() : 0) + over_triangles_.compile_ms() +
-         (over_boxes_ ? over_boxes_->compile_ms() : 0);
+  return (cut_ ? cut_->compile_ms() : 0) + over_triangles_.compile_ms();
 }
 
 }  // namespace facet::tracer

@@ -1,10 +1,9 @@
-// A scene's binary trees by any builder, with the leaves that a layout wants.
+// Meshes' binary trees by any builder, with the leaves that a layout wants.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "runtime/runtime.hpp"
 #include "tracer/cut_tree.hpp"
@@ -18,8 +17,7 @@ namespace facet::tracer {
 
 class node_trees {
  public:
-  /// kind: not tree_kind::none. leaves: of triangles; an instance is a leaf of its own. in_order:
-  /// triangles are put into leaf order, too.
+  /// kind: not tree_kind::none. in_order: triangles are put into leaf order, too.
   node_trees(const runtime::queue& q, const runtime::source_tree& kernels, const tuning& t,
              tree_kind kind, leaf_rule leaves, bool in_order = false);
 
@@ -27,8 +25,6 @@ class node_trees {
   /// sorted: given if they are put into order.
   node_tree over_triangles(runtime::buffer<texel>& corners, std::uint32_t count,
                            const leaf_triangles* sorted = nullptr);
-  /// Over the bounds of placed meshes, at least one.
-  node_tree over_instances(const std::vector<Instance>& placed);
   /// A caller's tree over those triangles. Throws runtime::exception (invalid) if it is none.
   node_tree from(const given_tree& given, std::span<const texel> corners);
 
@@ -45,10 +41,8 @@ class node_trees {
   const runtime::source_tree& kernels_;
   tuning tuning_;
   leaf_rule leaves_;
-  tree_kind kind_;
   tree_builder<texel> over_triangles_;
-  std::optional<tree_builder<Box>> over_boxes_;  ///< once there are instances
-  std::optional<tree_cutter> cut_;               ///< once a tree is given
+  std::optional<tree_cutter> cut_;  ///< once a tree is given
 };
 
 }  // namespace facet::tracer

@@ -16,12 +16,6 @@ void put(float (&to)[3], const vec3<T>& from) {
 
 texel texel_of(vec3f v) { return {v.x, v.y, v.z, 0}; }
 
-std::array<float, 3> reach_of(const box3f& b) {
-  if (b.empty()) return {};
-  const vec3f r = max(abs(b.lo), abs(b.hi));
-  return {r.x, r.y, r.z};
-}
-
 void put(float (&to)[12], const transform& from) {
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 4; ++j) to[4 * i + j] = float(from.row[i][j]);
@@ -71,6 +65,25 @@ void pack_mesh(const mesh& m, bool with_normals, packed_scene& to) {
 
 }  // namespace
 
+std::array<float, 3> reach_of(const box3f& b) {
+  if (b.empty()) return {};
+  const vec3f r = max(abs(b.lo), abs(b.hi));
+  return {r.x, r.y, r.z};
+}
+
+Instance pack_instance(const instance& placed, std::uint32_t id, const box3f& mesh_bounds) {
+  Instance q{};
+  put(q.world_from_object, placed.world_from_object);
+  put(q.object_from_world, placed.world_from_object.inverse());
+  const box3f box = world_box<float>(placed.world_from_object, mesh_bounds);
+  put(q.lo, box.lo), put(q.hi, box.hi);
+  const std::array<float, 3> reach = reach_of(mesh_bounds);
+  std::copy(reach.begin(), reach.end(), q.reach);
+  q.id = id;
+  q.material = placed.material;
+  return q;
+}
+
 packed_scene pack(const scene& s, bool with_normals) {
   packed_scene p;
   std::vector<bool> is_shown(s.meshes.size(), false);
@@ -90,7 +103,6 @@ packed_scene pack(const scene& s, bool with_normals) {
     if (is_shown[k]) {
       pack_mesh(s.meshes[k], with_normals, p);
       bounds[k] = s.meshes[k].bounds();
-      placed.reach = reach_of(bounds[k]);
     }
     placed.triangle_count = std::uint32_t(p.triangle_materials.size()) - placed.first_triangle;
     p.meshes.push_back(placed);
@@ -99,14 +111,7 @@ packed_scene pack(const scene& s, bool with_normals) {
     const instance& i = s.instances[k];
     const packed_mesh& m = p.meshes[i.mesh];
     if (m.triangle_count == 0) continue;
-    Instance q{};
-    put(q.world_from_object, i.world_from_object);
-    put(q.object_from_world, i.world_from_object.inverse());
-    const box3f box = world_box<float>(i.world_from_object, bounds[i.mesh]);
-    put(q.lo, box.lo), put(q.hi, box.hi);
-    std::copy(m.reach.begin(), m.reach.end(), q.reach);
-    q.id = std::uint32_t(k);
-    q.material = i.material;
+    Instance q = pack_instance(i, std::uint32_t(k), bounds[i.mesh]);
     q.first_triangle = m.first_triangle;
     q.triangle_count = m.triangle_count;
     p.instances.push_back(q);

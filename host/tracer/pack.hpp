@@ -15,7 +15,6 @@ using texel = std::array<float, 4>;
 /// Where one mesh of the scene stands in the concatenated arrays.
 struct packed_mesh {
   std::uint32_t first_triangle = 0, triangle_count = 0;
-  std::array<float, 3> reach{};  ///< largest |coordinate| of its bounds, by axis
 };
 
 struct packed_scene {
@@ -37,6 +36,12 @@ struct packed_scene {
 
 /// Triangles of the largest mesh.
 std::uint32_t largest_mesh(const packed_scene& p);
+
+/// The scene's instance `id`, placed over a mesh with those bounds; root and slots are left 0.
+Instance pack_instance(const instance& placed, std::uint32_t id, const box3f& mesh_bounds);
+
+/// The largest |coordinate| of a box, by axis; 0 if it is empty.
+std::array<float, 3> reach_of(const box3f& b);
 
 /// The scene must be valid (scene/validate.hpp). Meshes that no instance shows are packed as empty.
 packed_scene pack(const scene& s, bool with_normals);

@@ -64,8 +64,8 @@ picture device_scene::render(std::uint32_t width, std::uint32_t height, std::uin
                              const std::atomic<bool>* cancel) {
   check_size(width, height, max_depth);
   state& s = *state_;
-  check_camera_media(s.model, s.camera_media);
-  const View view = pack_view(s.model, s.camera_media, width, height, max_depth);
+  check_camera_media(s.model, s.media());
+  const View view = pack_view(s.model, s.media(), width, height, max_depth);
   const group_size group = group_of(s.chosen, s.tuned, s.in_packets);
   const item_size item = item_of(s.in_packets);
 

@@ -11,6 +11,7 @@
 
 namespace facet::tracer {
 
+class scene_mover;
 class split_renderer;
 
 struct device_scene::state {
@@ -21,8 +22,8 @@ struct device_scene::state {
   bool in_images = false;
   bool in_packets = false;  ///< a work-item takes FACET_PACKET rays or pixels
   runtime::source_tree kernels;
-  scene model;  ///< without its meshes: camera, lights and limits of later pictures
-  std::vector<std::uint32_t> camera_media;  ///< around the camera, innermost first
+  scene model;  ///< camera, lights and limits of later pictures; with its meshes if they may move
+  std::optional<std::vector<std::uint32_t>> camera_media;  ///< innermost first; none: not yet known
   device_geometry geometry;
   std::uint64_t peak_bytes = 0;  ///< of device memory while the geometry was made
   runtime::buffer<Light> lights;
@@ -30,6 +31,7 @@ struct device_scene::state {
   std::optional<runtime::program> trace_program, render_program, probe_program;
   std::uint32_t render_stack = 0;  ///< entries of pending rays that render_program was built for
   std::shared_ptr<split_renderer> split = nullptr;  ///< of the last picture by several kernels
+  std::shared_ptr<scene_mover> mover = nullptr;     ///< from the first move on
 
   /// Compiles on first use, and again where a deeper picture needs a larger stack of pending rays.
   runtime::kernel trace_kernel(bool any);
@@ -39,6 +41,11 @@ struct device_scene::state {
   bool is_split() const;
   split_renderer& split_kernels(std::uint32_t max_depth, std::uint64_t pixels);
   runtime::kernel probe_kernel(const char* name);
+  /// The kernels of traversal are compiled anew: what they are compiled for has changed.
+  void forget_programs();
+
+  /// Around the camera.
+  const std::vector<std::uint32_t>& media();
 
   /// Sets a kernel's first arguments, those of every traversal (cl/trace.cl, cl/render.cl).
   std::uint32_t set_geometry(runtime::handler& h);

@@ -111,15 +111,16 @@ device_scene::device_scene(runtime::queue queue, const scene& s, options o,
   runtime::context context = queue.get_context();
   context.restart_peak();
   const std::uint64_t before = context.memory_in_use();
-  device_geometry geometry =
-      wide ? build_wide_geometry(queue, kernels, std::move(packed), used, o.tree, tuned, given)
-           : build_geometry(queue, kernels, std::move(packed), used, o.tree, in_images, tuned,
-                            given);
+  device_geometry geometry = wide ? build_wide_geometry(queue, kernels, std::move(packed), used,
+                                                        o.tree, tuned, given, o.movable)
+                                  : build_geometry(queue, kernels, std::move(packed), used, o.tree,
+                                                   in_images, tuned, given);
 
   const std::uint64_t peak = context.peak_memory() - before;
+  scene model = o.movable ? s : without_meshes(s);
   state_ = std::make_unique<state>(state{
-      queue, std::move(o), tuned, used, in_images, in_packets, std::move(kernels),
-      without_meshes(s), media_at(s, s.view.position), std::move(geometry), peak, std::move(lights),
+      queue, std::move(o), tuned, used, in_images, in_packets, std::move(kernels), std::move(model),
+      media_at(s, s.view.position), std::move(geometry), peak, std::move(lights),
       runtime::buffer<Faults>(1), std::nullopt, std::nullopt, std::nullopt, 0});
 }
 
@@ -191,6 +192,18 @@ runtime::kernel device_scene::state::probe_kernel(const char* name) {
                  traversal_options(used, model.nesting, chosen.tree, in_images, geometry.is_wide,
                                    geometry.stack, one_bounce, tuned));
   return probe_program->get_kernel(name);
+}
+
+void device_scene::state::forget_programs() {
+  trace_program.reset();
+  render_program.reset();
+  probe_program.reset();
+  split.reset();
+}
+
+const std::vector<std::uint32_t>& device_scene::state::media() {
+  if (!camera_media) camera_media = media_at(model, model.view.position);
+  return *camera_media;
 }
 
 std::uint32_t device_scene::state::set_geometry(runtime::handler& h) {

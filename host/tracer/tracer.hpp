@@ -52,6 +52,7 @@ struct options {
   bool driver_group = false;                        ///< the driver chooses the work-group instead
   std::uint32_t tile_width = 0, tile_height = 0;    ///< pixels a launch; 0: about 50 ms each
   std::uint64_t split_rays = 0;                     ///< room for so many; 0: by picture and device
+  bool movable = false;                             ///< see device_scene::move_vertices, place
   bool all_features = false;                        ///< compile what the scene does not need, too
   std::string kernel_folder;                        ///< read cl/ from here, not from the library
   std::vector<kernel_edit> edits;                   ///< how a variant differs, in order
@@ -187,6 +188,23 @@ class device_scene {
   /// The kernel of pictures of that depth; compiles it unless that was done before.
   kernel_description describe_render(std::uint32_t max_depth);
 
+  /// A mesh's vertices move, its triangles stay: pictures and hits are then those of a device_scene
+  /// made from the scene as it is now, bit for bit. The mesh's tree keeps its shape, with boxes
+  /// that fit (cl/refit.cl), so the further vertices move apart, the slower it may be traced; the
+  /// tree over instances is built anew. `positions`: as many as the mesh has. `normals`: as many,
+  /// or none: they stay. The first move of a mesh puts its vertices and indices on the device,
+  /// which stay there. Throws runtime::exception (invalid) if the scene was not made with
+  /// options::movable, has no such mesh, or another number of either; scene_error for vertices that
+  /// no scene may have (scene/validate.hpp). Nothing has changed then. After another error the
+  /// scene is to be made anew.
+  void move_vertices(std::uint32_t mesh, std::span<const vec3f> positions,
+                     std::span<const vec3f> normals = {});
+
+  /// Instances move, all at once: `world_from_object` has one for each instance of the scene, in
+  /// its order. As above; meshes' trees are left as they are. Kernels are compiled anew if the
+  /// scene's only instance was placed by the identity before, and is not now.
+  void place(std::span<const transform> world_from_object);
+
   /// Traces `rays`; `any` stops at the first accepted triangle and fills only instance and
   /// triangle with 0 for a hit (which one is not defined), t, u, v with 0.
   std::vector<hit> trace(std::span<const ray> rays, bool any = false, unsigned repeat = 1,
@@ -198,7 +216,8 @@ class device_scene {
   /// or a directional one if it is infinite); `medium` is the material around the origins.
   std::vector<passage> passages(std::span<const ray> rays, std::uint32_t medium = miss);
 
-  /// What is known before anything is traced: device, layout, trees, times of preparation.
+  /// What is known before anything is traced: device, layout, trees, times of preparation, or of
+  /// the last move.
   statistics prepared() const;
 
   /// The trees that rays are led by. Throws runtime::exception (invalid) with tree_kind::none.

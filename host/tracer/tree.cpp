@@ -97,6 +97,15 @@ runtime::buffer<std::uint32_t> identity_order(std::uint32_t count) {
 
 }  // namespace
 
+void set_depth(device_geometry& g, bool has_instances, const top_plan* top) {
+  const std::uint32_t levels = g.mesh_levels + (top ? top->levels : 0);
+  g.depth = g.mesh_depth + (top ? top->tree.depth : 0);
+  // One entry a node on the way down (cl/search_narrow.h), or seven (cl/search_wide.h), and one
+  // where an instance is entered.
+  g.stack = (g.is_wide ? 7 : 1) * levels + (has_instances ? 1 : 0);
+  g.nodes_used = g.mesh_nodes_used + (top ? top->tree.node_count : 0);
+}
+
 void check_memory(const runtime::device& d, std::uint64_t triangles, std::uint64_t peak) {
   if (peak > d.global_mem_size())
     throw runtime::exception(
@@ -120,6 +129,9 @@ device_geometry build_geometry(runtime::queue& q, const runtime::source_tree& ke
   std::optional<node_trees> build;
   if (kind != tree_kind::none)
     build.emplace(q, kernels, t, kind, leaf_rule{t.leaf_sure, t.leaf_size}, true);
+  std::optional<top_level> over_instances;
+  if (kind != tree_kind::none && f.instances && !packed.instances.empty())
+    over_instances.emplace(q, kernels, t, kind, false);
   const std::size_t texels =
       in_images ? whole_rows(3 * triangles) : std::max<std::size_t>(1, 3 * triangles);
   const std::size_t instances = packed.instances.size();
@@ -161,7 +173,7 @@ device_geometry build_geometry(runtime::queue& q, const runtime::source_tree& ke
                                         std::span<const texel>(packed.corners).subspan(first, size))
                           : build->over_triangles(corners, m.triangle_count, &sorted);
       order = trees[k]->order;
-      g.nodes_used += trees[k]->node_count;
+      g.mesh_nodes_used += trees[k]->node_count;
     }
     if (kind == tree_kind::none || is_given)
       gather.triangles(order, corners, m.triangle_count, sorted);
@@ -175,46 +187,38 @@ device_geometry build_geometry(runtime::queue& q, const runtime::source_tree& ke
 
   const auto start_top = clock::now();
   std::vector<Instance>& placed = packed.instances;
-  std::optional<node_tree> top;
-  if (f.instances && kind != tree_kind::none && !placed.empty()) {
-    top = build->over_instances(placed);
-    g.nodes_used += top->node_count;
-    const runtime::host_accessor order{top->order, runtime::read_only};
-    std::vector<Instance> sorted;
-    std::vector<std::uint32_t> meshes;
-    for (std::size_t i = 0; i < placed.size(); ++i) {
-      sorted.push_back(placed[order[i]]);
-      meshes.push_back(packed.instance_meshes[order[i]]);
-    }
-    placed = std::move(sorted);
-    packed.instance_meshes = std::move(meshes);
-  }
+  std::optional<top_plan> top;
+  if (over_instances) top = over_instances->plan(placed);
   // One tree stays where it was built; several are put into one array.
   const bool is_one = !top && packed.meshes.size() == 1;
   if (is_one && trees[0])
     g.nodes = trees[0]->nodes;
   else
-    g.nodes = runtime::buffer<Node>(std::max<std::size_t>(1, g.nodes_used));
-  std::vector<std::uint32_t> roots(packed.meshes.size(), FACET_NONE);
-  std::uint32_t node = 0, mesh_depth = 0;
+    g.nodes =
+        runtime::buffer<Node>(std::max<std::size_t>(1, g.mesh_nodes_used + (top ? top->nodes : 0)));
+  g.meshes.resize(packed.meshes.size());
+  std::uint32_t node = 0;
   for (std::size_t k = 0; k < trees.size(); ++k) {
+    mesh_place& there = g.meshes[k];
+    there.first_slot = packed.meshes[k].first_triangle;
+    there.slots = packed.meshes[k].triangle_count;
     if (!trees[k]) continue;
-    const std::uint32_t slot = packed.meshes[k].first_triangle;
-    if (!is_one) array.append(*trees[k], g.nodes, node, slot);
-    roots[k] = trees[k]->root + (trees[k]->root & FACET_LEAF_BIT ? slot : node);
-    node += trees[k]->node_count;
-    mesh_depth = std::max(mesh_depth, trees[k]->depth);
+    if (!is_one) array.append(*trees[k], g.nodes, node, there.first_slot);
+    there.root = trees[k]->root + (trees[k]->root & FACET_LEAF_BIT ? there.first_slot : node);
+    there.first_node = node;
+    there.nodes = trees[k]->node_count;
+    node += there.nodes;
+    g.mesh_depth = std::max(g.mesh_depth, trees[k]->depth);
   }
-  for (std::size_t i = 0; i < placed.size(); ++i) placed[i].root = roots[packed.instance_meshes[i]];
-  if (top) {
-    array.append(*top, g.nodes, node, 0);
-    packed.world.root = top->root + (top->root & FACET_LEAF_BIT ? 0 : node);
-  } else if (!f.instances) {
+  g.mesh_levels = g.mesh_depth;
+  g.first_top_node = node;
+  for (std::size_t i = 0; i < placed.size(); ++i)
+    placed[i].root = g.meshes[packed.instance_meshes[i]].root;
+  if (top)
+    packed.world.root = over_instances->write(*top, g, node, placed);
+  else if (!f.instances)
     packed.world.root = placed.empty() ? FACET_NONE : placed[0].root;
-  }
-  g.depth = mesh_depth + (top ? top->depth : 0);
-  // cl/search_narrow.h: one entry a node on the way down, and one where an instance is entered.
-  g.stack = g.depth + (f.instances ? 1 : 0);
+  set_depth(g, f.instances, top ? &*top : nullptr);
   if (!placed.empty()) g.instances = runtime::buffer<Instance>(placed.data(), placed.size());
   g.world = runtime::buffer<World>(&packed.world, 1);
   if (in_images) {
@@ -226,7 +230,8 @@ device_geometry build_geometry(runtime::queue& q, const runtime::source_tree& ke
   q.wait_and_throw();
   g.build_ms = build_ms + milliseconds_since(start_top);
   g.upload_ms = upload_ms;
-  g.compile_ms = array.compile_ms() + gather.compile_ms() + (build ? build->compile_ms() : 0);
+  g.compile_ms = array.compile_ms() + gather.compile_ms() + (build ? build->compile_ms() : 0) +
+                 (over_instances ? over_instances->compile_ms() : 0);
   g.bytes = g.nodes.byte_size() + g.instances.byte_size() + g.infos.byte_size() +
             g.materials.byte_size() + texels * sizeof(texel) * (smooth ? 2 : 1);
   return g;

@@ -4,14 +4,23 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "runtime/runtime.hpp"
 #include "tracer/features.hpp"
 #include "tracer/pack.hpp"
+#include "tracer/top_level.hpp"
 #include "tracer/tracer.hpp"
 #include "tracer/tuning.hpp"
 
 namespace facet::tracer {
+
+/// Where a mesh stands in the scene's arrays; one that no instance shows has no slots.
+struct mesh_place {
+  std::uint32_t root = FACET_NONE;          ///< of its tree, as a child
+  std::uint32_t first_node = 0, nodes = 0;  ///< that the layout has of its tree
+  std::uint32_t first_slot = 0, slots = 0;  ///< in the wide layout those of whole blocks
+};
 
 /// What cl/traverse.h reads, in the order of a kernel's first arguments.
 struct device_geometry {
@@ -26,12 +35,21 @@ struct device_geometry {
   std::optional<runtime::image2d> corner_image, normal_image;
   bool is_wide = false;
 
+  std::vector<mesh_place> meshes{};   ///< by mesh of the scene
+  std::uint32_t first_top_node = 0;   ///< the tree over instances stands behind all others
+  std::uint32_t mesh_depth = 0;       ///< of the deepest mesh's binary tree
+  std::uint32_t mesh_levels = 0;      ///< the layout's nodes on the longest way down in a mesh
+  std::uint64_t mesh_nodes_used = 0;  ///< of the meshes' binary trees
   std::uint32_t stack = 1;       ///< entries that traversal may need (cl/features.h: FACET_STACK)
   std::uint32_t depth = 0;       ///< deepest way from the top's root to a leaf
   std::uint64_t nodes_used = 0;  ///< of all binary trees that the layout is made from
   std::uint64_t bytes = 0;       ///< of device memory that stays allocated
   double compile_ms = 0, upload_ms = 0, build_ms = 0;
 };
+
+/// Sets what follows from the meshes' trees and the tree over instances, if there is one: depth,
+/// stack and nodes_used.
+void set_depth(device_geometry& g, bool has_instances, const top_plan* top);
 
 /// Throws runtime::exception (memory_allocation) if `peak` bytes, which building the trees of that
 /// many triangles takes, are more than the device has.

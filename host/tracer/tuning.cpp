@@ -44,6 +44,8 @@ tuning tuning_for(const runtime::device& d) {
     t.bounds_group = 256;
     t.build_in_groups();
     t.split_render = true;
+    t.refit_group = 64;
+    t.refit_nodes = 8;
   }
   return t;
 }

@@ -19,9 +19,11 @@ struct tuning : choices {
   std::uint32_t list_group = 1, list_each = 1024,
                 scan_group = 1;    ///< of cl/subtrees.cl; powers of 2
   std::uint32_t split_group = 64;  ///< that splits a range of the top tree; at least 64
-  bool hardware_minmax = false;    ///< cl/device.h
-  bool warps = false;              ///< PTX of sm_70 can be written (cl/warp.h)
-  bool correctly_rounded = false;  ///< the device can be asked for exact divide and sqrt
+  std::uint32_t refit_group = 1,
+                refit_nodes = 1024;  ///< of cl/refit.cl: nodes of a treelet at most
+  bool hardware_minmax = false;      ///< cl/device.h
+  bool warps = false;                ///< PTX of sm_70 can be written (cl/warp.h)
+  bool correctly_rounded = false;    ///< the device can be asked for exact divide and sqrt
 
   std::string more_flags;  ///< as options::compiler_flags has them
 

@@ -40,25 +40,22 @@ struct planned_mesh {
   fold_plan fold;
 };
 
-/// Where a mesh stands in the scene's arrays.
-struct mesh_place {
-  std::uint32_t root = FACET_NONE, first_slot = 0, slots = 0;
-};
-
 /// Plans all trees before it writes any: only then is it known how large the scene's arrays are.
 class wide_builder {
  public:
   wide_builder(runtime::queue& q, const runtime::source_tree& kernels, packed_scene packed,
-               const features& f, tree_kind kind, const tuning& t)
+               const features& f, tree_kind kind, const tuning& t, bool is_movable)
       : queue_(q),
         packed_(std::move(packed)),
         features_(f),
         kind_(kind),
+        is_movable_(is_movable),
         triangles_(packed_.world.triangle_count),
         fold_(q, kernels, t),
-        blocks_(q, kernels, t),
-        places_(packed_.meshes.size()) {
+        blocks_(q, kernels, t) {
     if (has_trees()) trees_.emplace(q, kernels, t, kind, block_leaves);
+    if (has_trees() && f.instances && !packed_.instances.empty())
+      over_instances_.emplace(q, kernels, t, kind, true);
     // What planning takes of a mesh is less than what building and cutting took.
     const std::uint64_t largest = largest_mesh(packed_);
     check_memory(
@@ -82,7 +79,8 @@ class wide_builder {
     queue_.wait_and_throw();
     g.build_ms = milliseconds_since(start_build);
     g.upload_ms = upload_ms;
-    g.compile_ms = (trees_ ? trees_->compile_ms() : 0) + fold_.compile_ms() + blocks_.compile_ms();
+    g.compile_ms = (trees_ ? trees_->compile_ms() : 0) + fold_.compile_ms() + blocks_.compile_ms() +
+                   (over_instances_ ? over_instances_->compile_ms() : 0);
     return g;
   }
 
@@ -125,14 +123,9 @@ class wide_builder {
   }
 
   void plan_instances() {
-    if (!features_.instances || !has_trees() || packed_.instances.empty()) return;
-    top_.push_back({trees_->over_instances(packed_.instances),
-                    fold_plan{0, 0, 0, runtime::buffer<FoldPlan>(1)}});
-    top_[0].second = fold_.plan(top_[0].first);
-    top_binary_depth_ = top_[0].first.depth;
-    top_depth_ = top_[0].second.depth;
-    binary_nodes_ += top_[0].first.node_count;
-    nodes_ += top_[0].second.nodes;
+    if (!over_instances_) return;
+    top_ = over_instances_->plan(packed_.instances);
+    nodes_ += is_movable_ ? top_level::most_nodes(packed_.instances.size()) : top_->nodes;
   }
 
   device_geometry allocated() const {
@@ -157,17 +150,20 @@ class wide_builder {
                       std::nullopt,
                       std::nullopt};
     g.is_wide = true;
-    g.depth = mesh_binary_depth_ + top_binary_depth_;
-    // cl/search_wide.h: seven entries a level of either tree, and one where an instance is entered.
-    g.stack = 7 * (mesh_depth_ + top_depth_) + (features_.instances ? 1 : 0);
-    g.nodes_used = binary_nodes_;
+    g.mesh_depth = mesh_binary_depth_;
+    g.mesh_levels = mesh_depth_;
+    g.mesh_nodes_used = binary_nodes_;
+    g.meshes.resize(packed_.meshes.size());
+    set_depth(g, features_.instances, top_ ? &*top_ : nullptr);
     g.bytes = bytes;
     return g;
   }
 
   void write(planned_mesh& m, device_geometry& to) {
     const std::uint32_t triangles = packed(m).triangle_count, first_block = next_block_;
-    mesh_place& there = places_[m.mesh];
+    mesh_place& there = to.meshes[m.mesh];
+    there.first_node = next_node_;
+    there.nodes = m.fold.nodes;
     there.first_slot = first_block * FACET_BLOCK;
     there.slots = m.fold.leaves * FACET_BLOCK;
     block_list list{runtime::buffer<std::uint32_t>(m.fold.leaves), m.tree.order, m.fold.leaves};
@@ -188,22 +184,14 @@ class wide_builder {
   void write_instances(device_geometry& to) {
     std::vector<Instance>& placed = packed_.instances;
     for (std::size_t i = 0; i < placed.size(); ++i) {
-      const mesh_place& there = places_[packed_.instance_meshes[i]];
+      const mesh_place& there = to.meshes[packed_.instance_meshes[i]];
       placed[i].root = there.root;
       placed[i].first_triangle = there.first_slot;
       placed[i].triangle_count = there.slots;
     }
     if (!features_.instances) packed_.world.root = placed.empty() ? FACET_NONE : placed[0].root;
-    for (auto& [tree, plan] : top_) {
-      runtime::buffer<std::uint32_t> leaves(plan.leaves);
-      packed_.world.root = fold_.emit(tree, plan, to.wide_nodes, next_node_, leaves, 0);
-      const runtime::host_accessor leaf{leaves, runtime::read_only};
-      const runtime::host_accessor order{tree.order, runtime::read_only};
-      std::vector<Instance> sorted;
-      for (const std::uint32_t place : leaf)
-        sorted.push_back(placed[order[FACET_LEAF_FIRST(place)]]);
-      placed = std::move(sorted);
-    }
+    to.first_top_node = next_node_;
+    if (top_) packed_.world.root = over_instances_->write(*top_, to, next_node_, placed);
     if (!placed.empty()) to.instances = runtime::buffer<Instance>(placed.data(), placed.size());
     packed_.world.triangle_count = std::uint32_t(slots_);
     to.world = runtime::buffer<World>(&packed_.world, 1);
@@ -213,16 +201,16 @@ class wide_builder {
   packed_scene packed_;
   features features_;
   tree_kind kind_;
+  bool is_movable_;
   std::uint64_t triangles_;
   std::optional<node_trees> trees_;
   folder fold_;
   block_maker blocks_;
   std::vector<planned_mesh> meshes_;
-  std::vector<mesh_place> places_;                    ///< by mesh of the scene
-  std::vector<std::pair<node_tree, fold_plan>> top_;  ///< over instances; one at most
+  std::optional<top_level> over_instances_;
+  std::optional<top_plan> top_;
   std::uint64_t nodes_ = 0, slots_ = 0, binary_nodes_ = 0, kept_scratch_ = 0;
-  std::uint32_t mesh_depth_ = 0, top_depth_ = 0;
-  std::uint32_t mesh_binary_depth_ = 0, top_binary_depth_ = 0;
+  std::uint32_t mesh_depth_ = 0, mesh_binary_depth_ = 0;
   std::uint32_t next_node_ = 0, next_block_ = 0;
 };
 
@@ -230,8 +218,9 @@ class wide_builder {
 
 device_geometry build_wide_geometry(runtime::queue& q, const runtime::source_tree& kernels,
                                     packed_scene packed, const features& f, tree_kind kind,
-                                    const tuning& t, std::span<const given_tree> given) {
-  return wide_builder(q, kernels, std::move(packed), f, kind, t).build(given);
+                                    const tuning& t, std::span<const given_tree> given,
+                                    bool is_movable) {
+  return wide_builder(q, kernels, std::move(packed), f, kind, t, is_movable).build(given);
 }
 
 }  // namespace facet::tracer

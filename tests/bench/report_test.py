@@ -276,6 +276,7 @@ class Report(FilesTest):
             "pictures": [bench, "pictures", knot, "--width", "32", "--repeat", "1"],
             "sort": [bench, "sort", "--count", "100", "--repeat", "2"],
             "fold": [bench, "fold", "--mesh", "terrain:1", "terrain:20", "--repeat", "2"],
+            "move": [bench, "move", "--mesh", "soup:40", "--instances", "3", "--repeat", "2"],
             "growth": [bench, "growth", "--triangles", "10", "20", "--width", "64", "--repeat", "2"],
         }
         files = []

@@ -43,7 +43,8 @@ for target in spir64-unknown-unknown nvptx64-nvidia-nvcl amdgcn-amd-amdhsa; do
   echo "$target code probe.cl"
   echo "$target code probe.cl${derived[*]/#/ -D}"
   for kernel in morton.cl bottom.cl "morton.cl -DFACET_OVER_BOXES" "bottom.cl -DFACET_OVER_BOXES" subtrees.cl top.cl \
-      levels.cl "levels.cl -DFACET_OVER_BOXES" tree.cl leaf_order.cl look_back.cl cut_tree.cl fold.cl blocks.cl; do
+      levels.cl "levels.cl -DFACET_OVER_BOXES" tree.cl leaf_order.cl look_back.cl cut_tree.cl fold.cl blocks.cl refit.cl \
+      moved_corners.cl; do
     echo "$target code $kernel"
   done
   as=check
@@ -70,7 +71,7 @@ for ((set = 0; set < 1 << ${#derived[@]}; ++set)); do
   is_outer "$set" ${#derived[@]} || as=check
   for target in spir64-unknown-unknown x86_64-unknown-linux-gnu; do
     [[ $as == code || $target == spir64* ]] || continue
-    for kernel in render.cl render_packets.cl trace.cl trace_packets.cl probe.cl "trace.cl -DFACET_TREE_NONE"; do
+    for kernel in render.cl render_packets.cl trace.cl trace_packets.cl probe.cl refit.cl "trace.cl -DFACET_TREE_NONE"; do
       echo "$target $as $kernel$options"
     done
   done
