@@ -46,8 +46,6 @@ class bottoms {
                       std::vector<step>& steps);
 
   double compile_ms() const { return program_.build_ms(); }
-  /// Where single work-items build, it holds the top tree's kernel as well.
-  const runtime::program& program() const { return program_; }
 
  private:
   runtime::queue queue_;

@@ -10,8 +10,6 @@
 namespace facet::tracer {
 namespace {
 
-constexpr leaf_rule one_each{1, 1};
-
 Box box_of(const Instance& i) {
   Box b{};
   std::copy(std::begin(i.lo), std::end(i.lo), b.lo);

@@ -12,9 +12,7 @@ namespace facet::tracer {
 
 class top_tree {
  public:
-  /// bottoms: the program of what is below (bottoms.hpp).
-  top_tree(const runtime::queue& q, const runtime::source_tree& kernels, const tuning& t,
-           const runtime::program& bottoms);
+  top_tree(const runtime::queue& q, const runtime::source_tree& kernels, const tuning& t);
 
   /// Writes parts.nodes[0 .. count - 2], the root first; count > 1 items, whose order is lost.
   /// Returns the nodes on the longest way down, those of the items included. Waits for the device.
@@ -22,8 +20,7 @@ class top_tree {
                       std::vector<step>& steps);
 
   static std::uint64_t scratch_bytes(std::uint64_t count);
-  /// Of a program of its own.
-  double compile_ms() const { return is_serial_ ? 0 : program_.build_ms(); }
+  double compile_ms() const { return program_.build_ms(); }
 
  private:
   std::uint32_t build_serial(runtime::buffer<Curve>& curve, tree_parts& parts, std::uint32_t count,

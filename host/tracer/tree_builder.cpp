@@ -40,7 +40,7 @@ struct tree_builder<Primitive>::parts {
   struct binned {
     binned(const runtime::queue& q, const runtime::source_tree& kernels, const tuning& t,
            leaf_rule leaves, bool in_order)
-        : bottom(q, kernels, t, leaves, in_order), top(q, kernels, t, bottom.program()) {}
+        : bottom(q, kernels, t, leaves, in_order), top(q, kernels, t) {}
 
     built_root build(runtime::buffer<Primitive>& primitives, runtime::buffer<Curve>& curve,
                      const sorted_places& places, tree_parts& to, const leaf_triangles* sorted,
