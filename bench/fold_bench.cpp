@@ -10,6 +10,7 @@
 #include "bench/workload.hpp"
 #include "image/output.hpp"
 #include "study/statistics.hpp"
+#include "study/tree_makers.hpp"
 #include "tracer/blocks.hpp"
 #include "tracer/cut_tree.hpp"
 #include "tracer/fold.hpp"
@@ -24,6 +25,7 @@ using tracer::texel;
 
 struct arguments {
   std::vector<std::string> meshes{"terrain:1000", "soup:1000000"};
+  std::vector<std::string> trees{"binned"};
   std::string device = "0", flags, json;
   int repeat = 11;
 };
@@ -35,12 +37,12 @@ struct fold_times {
 };
 
 /// Into memory that the run before has used, but for the first.
-fold_times measure(runtime::queue& q, const mesh& m, int repeats, const std::string& flags) {
+fold_times measure(runtime::queue& q, const mesh& m, tracer::tree_kind kind, int repeats,
+                   const std::string& flags) {
   tracer::tuning t = tracer::tuning_for(q.get_device());
   t.more_flags = flags;
   t.build_alone();  // as on CPUs, for which the wide layout is
-  tracer::node_trees trees(q, tracer::kernel_sources(), t, tracer::tree_kind::binned,
-                           tracer::block_leaves);
+  tracer::node_trees trees(q, tracer::kernel_sources(), t, kind, tracer::block_leaves);
   tracer::folder folder(q, tracer::kernel_sources(), t);
   tracer::block_maker maker(q, tracer::kernel_sources(), t);
   const tracer::packed_scene packed = tracer::pack(scene_of(m), false);
@@ -93,27 +95,31 @@ void run(const arguments& o) {
   for (const std::string& path : o.meshes) {
     const std::string name = name_of(path);
     const mesh m = load_workload(path);
-    const fold_times t = measure(queue, m, o.repeat, o.flags);
-    json row{{"mesh", name},
-             {"triangles", m.triangle_count()},
-             {"binary_nodes", t.binary_nodes},
-             {"nodes", t.nodes},
-             {"blocks", t.blocks},
-             {"depth", t.depth}};
-    std::printf("%-22s %zu triangles, %u binary nodes, %u wide ones, %u blocks, depth %u\n",
-                name.c_str(), std::size_t(m.triangle_count()), t.binary_nodes, t.nodes, t.blocks,
-                t.depth);
-    for (const char* step : {"tree", "plan", "emit", "blocks"}) {
-      const study::summary s = study::summarize(t.step.at(step));
-      const double first = t.step.at(std::string("first ") + step)[0];
-      row["ms"][step] = {{"median", s.median},
-                         {"least", s.least},
-                         {"most", s.most},
-                         {"first", first},
-                         {"samples", t.step.at(step)}};
-      std::printf("%22s %9.2f (%.2f-%.2f), first %.2f\n", step, s.median, s.least, s.most, first);
+    for (const std::string& builder : o.trees) {
+      const fold_times t =
+          measure(queue, m, *study::tree_maker_of(builder)->kind, o.repeat, o.flags);
+      json row{{"mesh", name},
+               {"builder", builder},
+               {"triangles", m.triangle_count()},
+               {"binary_nodes", t.binary_nodes},
+               {"nodes", t.nodes},
+               {"blocks", t.blocks},
+               {"depth", t.depth}};
+      std::printf("%-22s %s: %zu triangles, %u binary nodes, %u wide ones, %u blocks, depth %u\n",
+                  name.c_str(), builder.c_str(), std::size_t(m.triangle_count()), t.binary_nodes,
+                  t.nodes, t.blocks, t.depth);
+      for (const char* step : {"tree", "plan", "emit", "blocks"}) {
+        const study::summary s = study::summarize(t.step.at(step));
+        const double first = t.step.at(std::string("first ") + step)[0];
+        row["ms"][step] = {{"median", s.median},
+                           {"least", s.least},
+                           {"most", s.most},
+                           {"first", first},
+                           {"samples", t.step.at(step)}};
+        std::printf("%22s %9.2f (%.2f-%.2f), first %.2f\n", step, s.median, s.least, s.most, first);
+      }
+      report["results"].push_back(row);
     }
-    report["results"].push_back(row);
   }
   if (!o.json.empty()) write_result(o.json, report);
 }
@@ -124,6 +130,10 @@ void add_fold_row(CLI::App& app) {
   auto o = std::make_shared<arguments>();
   CLI::App* row = app.add_subcommand("fold", "From a binary tree to the wide layout, on a device");
   row->add_option("--mesh", o->meshes, "OBJ files, terrain:N or soup:N")->capture_default_str();
+  row->add_option("--tree", o->trees, "builders")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"levels", "binned"}))
+      ->capture_default_str();
   row->add_option("--device", o->device, "index, or part of a name")->capture_default_str();
   row->add_option("--repeat", o->repeat, "timed runs, after one to warm up")
       ->check(CLI::Range(1, 1000))

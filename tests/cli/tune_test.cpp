@@ -25,8 +25,9 @@ outcome tune(const fs::path& table, std::vector<std::string> more) {
 }
 
 /// Some seconds at most: one choice, on a few rays. With every device one of the two is made.
-const std::vector<std::string> little{"--quick", "--only", "group,packet_group", "--rounds", "3",
-                                      "--width", "64"};
+const std::vector<std::string> little{"--quick",  "--only",   "group,packet_group",
+                                      "--rounds", "3",        "--width",
+                                      "64",       "--scenes", "torus_knot:p=3,q=4"};
 
 /// The table that a little tuning has left: this device's, made once.
 const json& tuned_table() {
@@ -279,9 +280,9 @@ TEST_CASE("it measures on the scenes that are named") {
   if (!has_device()) return;
   const temporary_folder folder;
   put(folder / "s.json", small_scene());
-  std::vector<std::string> words = little;
-  words.insert(words.end(), {"--scenes", (folder / "s.json").string(), "torus_knot:p=3,q=4"});
-  const outcome o = tune(folder / "t.json", words);
+  const outcome o =
+      tune(folder / "t.json", {"--quick", "--only", "split", "--width", "64", "--scenes",
+                               (folder / "s.json").string(), "torus_knot:p=3,q=4"});
   CAPTURE(o.err);
   REQUIRE(o.code == 0);
   const json file = json::parse(content_of(folder / "t.json"));

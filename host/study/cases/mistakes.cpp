@@ -78,7 +78,7 @@ mistake truncated_nodes() {
 
 mistake chained_ties() {
   return of("chained-ties", "equal codes are joined one after the other (up to 28 of them)",
-            {{"levels.cl", "32u - clz(i ^ (i + 1u))", "i + 1u"}});
+            {{"radix_tree.h", "32u + clz(i ^ (i + 1u))", "63u - i"}});
 }
 
 mistake kept_bad_vertices() {
