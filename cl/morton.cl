@@ -26,11 +26,13 @@ static inline void write_bounds(__local const float* pool, __global Box* to) {
   }
 }
 
-// Bounds of all doubled centres: first of each group's share, ...
-__kernel void partial_bounds(PRIMITIVES restrict primitives, __global Box* partial, uint count, __local float* pool) {
+// Bounds of all doubled centres: first of each group's share, so many in a row, ...
+__kernel void partial_bounds(PRIMITIVES restrict primitives, __global Box* partial, uint count, uint share,
+                             __local float* pool) {
   Bounds b = no_bounds();
-  for (size_t i = get_global_id(0); i < count; i += get_global_size(0)) {
-    const float3 c = centre2(bounds_at(primitives, (uint)i));
+  const uint begin = (uint)get_group_id(0) * share, end = min(begin + share, count);
+  for (uint i = begin + (uint)get_local_id(0); i < end; i += (uint)get_local_size(0)) {
+    const float3 c = centre2(bounds_at(primitives, i));
     b.lo = smaller3(c, b.lo);
     b.hi = larger3(c, b.hi);
   }

@@ -8,6 +8,7 @@
 namespace facet::tracer {
 namespace {
 
+constexpr std::uint32_t codes_group = 256;
 constexpr std::uint32_t bounds_words = 6;  // of local memory a work-item (cl/morton.cl)
 
 }  // namespace
@@ -31,12 +32,13 @@ template <class Primitive>
 void morton<Primitive>::codes(runtime::buffer<Primitive>& primitives, runtime::buffer<Curve>& curve,
                               runtime::buffer<std::uint32_t>& codes, std::uint32_t count,
                               std::vector<step>& steps) {
-  const std::uint32_t groups = std::min(most_groups_, (count + group_ - 1) / group_);
+  const std::uint32_t most = std::min(most_groups_, (count + group_ - 1) / group_);
+  const std::uint32_t share = (count + most - 1) / most, groups = (count + share - 1) / share;
   steps.push_back({"partial_bounds", queue_.submit([&](runtime::handler& h) {
                      const runtime::accessor in{primitives, h, runtime::read_only};
                      const runtime::accessor out{partial_, h, runtime::write_only};
                      const runtime::local_accessor<float> pool(bounds_words * group_, h);
-                     h.set_args(in, out, count, pool);
+                     h.set_args(in, out, count, share, pool);
                      h.parallel_for(in_groups(groups, group_), partial_bounds_);
                    })});
   steps.push_back({"total_bounds", queue_.submit([&](runtime::handler& h) {
@@ -51,7 +53,7 @@ void morton<Primitive>::codes(runtime::buffer<Primitive>& primitives, runtime::b
                      const runtime::accessor along{curve, h, runtime::read_only};
                      const runtime::accessor out{codes, h, runtime::write_only};
                      h.set_args(in, along, out, count);
-                     h.parallel_for(padded(count, group_), codes_);
+                     h.parallel_for(padded(count, codes_group), codes_);
                    })});
 }
 

@@ -13,7 +13,7 @@ namespace facet::tracer {
 struct tuning : choices {
   std::uint32_t block_run = 256;  ///< blocks of the wide layout that a work-item makes
   sort_tuning sort;
-  std::uint32_t bounds_group = 16,
+  std::uint32_t bounds_group = 1,
                 bounds_groups = 64;  ///< of the kernels of cl/morton.cl; a power of 2
   bool serial_trees = true;  ///< a work-item builds a tree alone (cl/serial_tree.cl), not a group
   std::uint32_t list_group = 1, list_each = 1024,
