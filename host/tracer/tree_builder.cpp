@@ -19,6 +19,36 @@ std::uint32_t usual_nodes(std::uint32_t count, leaf_rule leaves) {
   return leaves.sure < 2 || count < 4096 ? count : usual;
 }
 
+/// What `binned` is made by.
+template <class Primitive>
+struct binned {
+  binned(const runtime::queue& q, const runtime::source_tree& kernels, const tuning& t,
+         leaf_rule leaves, bool in_order)
+      : bottom(q, kernels, t, leaves, in_order), top(q, kernels, t) {}
+
+  built_root build(runtime::buffer<Primitive>& primitives, runtime::buffer<Curve>& curve,
+                   const sorted_places& places, tree_parts& to, const leaf_triangles* sorted,
+                   std::vector<step>& steps) {
+    const std::uint32_t subtrees = places.subtrees;
+    built_root r{bottom.build(primitives, places.starts, subtrees, places.order, to, subtrees - 1,
+                              sorted, steps),
+                 0, 0};
+    if (r.nodes > to.nodes.size()) return r;
+    if (subtrees > 1) {
+      r.depth = top.build(curve, to, subtrees, steps);
+    } else {
+      const runtime::host_accessor refs{to.refs, runtime::read_only};
+      const runtime::host_accessor items{to.items, runtime::read_only};
+      r.root = refs[0];
+      r.depth = items[0].size >> FACET_HEIGHT_BIT;
+    }
+    return r;
+  }
+
+  bottoms<Primitive> bottom;
+  top_tree top;
+};
+
 }  // namespace
 
 /// What is made of one kind of primitives with one leaf rule.
@@ -36,40 +66,11 @@ struct tree_builder<Primitive>::parts {
     if (in_order && !at_once) gather.emplace(q, kernels, t);
   }
 
-  /// What `binned` is made by.
-  struct binned {
-    binned(const runtime::queue& q, const runtime::source_tree& kernels, const tuning& t,
-           leaf_rule leaves, bool in_order)
-        : bottom(q, kernels, t, leaves, in_order), top(q, kernels, t) {}
-
-    built_root build(runtime::buffer<Primitive>& primitives, runtime::buffer<Curve>& curve,
-                     const sorted_places& places, tree_parts& to, const leaf_triangles* sorted,
-                     std::vector<step>& steps) {
-      const std::uint32_t subtrees = places.subtrees;
-      built_root r{bottom.build(primitives, places.starts, subtrees, places.order, to, subtrees - 1,
-                                sorted, steps),
-                   0, 0};
-      if (r.nodes > to.nodes.size()) return r;
-      if (subtrees > 1) {
-        r.depth = top.build(curve, to, subtrees, steps);
-      } else {
-        const runtime::host_accessor refs{to.refs, runtime::read_only};
-        const runtime::host_accessor items{to.items, runtime::read_only};
-        r.root = refs[0];
-        r.depth = items[0].size >> FACET_HEIGHT_BIT;
-      }
-      return r;
-    }
-
-    bottoms<Primitive> bottom;
-    top_tree top;
-  };
-
   morton<Primitive> morton_codes;
   radix_sort<std::uint32_t> sort;
   subtrees cut;
   std::optional<levels<Primitive>> merge;
-  std::optional<binned> split;
+  std::optional<binned<Primitive>> split;
   std::optional<leaf_order> gather;
   runtime::buffer<Curve> curve{1};
   runtime::buffer<std::uint32_t> codes{1};

@@ -25,7 +25,7 @@ inline std::vector<way> ways_to_move() {
   const auto add = [&](const char* name, layout_kind layout, tree_kind tree) -> options& {
     options o;
     o.layout = layout, o.tree = tree, o.movable = true;
-    return all.emplace_back(name, o).options;
+    return all.emplace_back(way{name, o}).options;
   };
   add("narrow, binned", layout_kind::narrow, tree_kind::binned);
   add("narrow, levels", layout_kind::narrow, tree_kind::levels);

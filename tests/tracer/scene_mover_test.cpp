@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "sanitized.hpp"
 #include "scene/error.hpp"
 #include "tracer/moving_helper.hpp"
 
@@ -63,7 +64,9 @@ bool has(const std::string& text, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("moved vertices give the hits of a scene made anew, one mesh after the other") {
+TEST_CASE(
+    "moved vertices give the hits of a scene made anew, one mesh after the other" *
+    doctest::skip(test::is_sanitized)) {  // minutes; the next one has moves for the sanitizers
   // Closed, and many more triangles without an area than are listed; apart from each other.
   for (const mesh& m : {generate("icosphere", {{"subdivisions", 4}}), test::random_soup(300, 4)})
     for (const test::way& w : test::ways_to_move()) {
@@ -227,7 +230,9 @@ TEST_CASE("moving takes no more memory from the second time on") {
   }
 }
 
-TEST_CASE("a mistake in moving is seen by these tests") {
+// It compiles kernels above all, which has nothing for the sanitizers to watch and takes minutes
+// with them.
+TEST_CASE("a mistake in moving is seen by these tests" * doctest::skip(test::is_sanitized)) {
   const std::string refit = "refit_node(nodes, first_node + order[k], corners);";
   const std::vector<kernel_edit> mistakes{
       {"refit.cl", refit, "if (first_treelet == 0u) " + refit},
