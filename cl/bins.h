@@ -10,13 +10,6 @@
 // Deeper ranges are halved by their items' indices: that ends after as many levels as an index has bits.
 #define TOP_SWEPT_DEPTH 48u
 
-static inline Bounds item_bounds(__global const Item* i) {
-  Bounds b;
-  b.lo = vec_global(i->lo);
-  b.hi = vec_global(i->hi);
-  return b;
-}
-
 // Bins lie between lo and hi, where doubled centres are or nearly are; without extent, or beyond what
 // a float can hold, all is in bin 0.
 static inline uint bin_of(float centre, float lo, float hi) {

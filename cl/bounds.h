@@ -31,6 +31,14 @@ static inline Bounds side_bounds(__global const Node* n, uint side) {
   return b;
 }
 
+// Of a finished subtree.
+static inline Bounds item_bounds(__global const Item* i) {
+  Bounds b;
+  b.lo = vec_global(i->lo);
+  b.hi = vec_global(i->hi);
+  return b;
+}
+
 // Half the surface. The order of the operations is part of every tree: builders that work by other
 // means get the same bits (cl/serial_sweep.h).
 static inline float half_area(Bounds b) {
@@ -43,6 +51,15 @@ static inline float split_cost(Bounds left, float left_weight, Bounds right, flo
   const float cost = half_area(left) * left_weight + half_area(right) * right_weight;
   return cost < INFINITY ? cost : INFINITY;
 }
+
+// A subtree of up to LEAF_SURE boxes is a leaf, one of up to LEAF_MOST if testing all of them costs no more
+// than visiting its children; each at least 1.
+#ifndef LEAF_SURE
+#define LEAF_SURE 2u
+#endif
+#ifndef LEAF_MOST
+#define LEAF_MOST 4u
+#endif
 
 // What a subtree of `weight` primitives costs a ray that meets it: they are tested LEAF_BLOCK at a time.
 #ifndef LEAF_BLOCK

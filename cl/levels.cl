@@ -7,13 +7,6 @@
 #include "radix_tree.h"
 #include "warp.h"
 
-#ifndef LEAF_SURE
-#define LEAF_SURE 2u
-#endif
-#ifndef LEAF_MOST
-#define LEAF_MOST 4u
-#endif
-
 // Words of local memory, in the order in which they stand.
 #define MERGE_BOX 0u        // [5][6][32] floats: bounds of 2^j places in a row, by j and the first of them
 #define MERGE_COMMON 960u   // of each place and the next (radix_tree.h), of the subtree's inner boundaries
@@ -163,8 +156,7 @@ __kernel void merge_items(__global const uint* codes, __global const uint* start
                           __global uint* told, uint count, uint subtrees) {
   const uint k = (uint)get_global_id(0);
   if (k >= subtrees) return;
-  Bounds own;
-  own.lo = vec_global(items[k].lo), own.hi = vec_global(items[k].hi);
+  Bounds own = item_bounds(&items[k]);
   uint child = refs[k], height = FACET_HEIGHT_OF(items[k].size), begin = k, end = k;
   uint before = common_bits(codes, count, starts[k] - 1u), after = common_bits(codes, count, starts[k + 1u] - 1u);
   while (before != after) {

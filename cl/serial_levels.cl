@@ -5,13 +5,6 @@
 #include "packed.h"
 #include "radix_tree.h"
 
-#ifndef LEAF_SURE
-#define LEAF_SURE 8u
-#endif
-#ifndef LEAF_MOST
-#define LEAF_MOST 8u
-#endif
-
 // Primitives that are asked for ahead: they are read from all over the mesh.
 #define AHEAD 12u
 
@@ -129,9 +122,7 @@ static inline void merge_run(__global const uint* codes, __global const uint* st
                              uint after, Subtree* stack, uint* top) {
   for (uint i = begin; i < end; ++i) {
     Subtree* pushed = &stack[(*top)++];
-    Bounds b;
-    b.lo = vec_global(items[i].lo), b.hi = vec_global(items[i].hi);
-    pushed->box = packed(b);
+    pushed->box = packed(item_bounds(&items[i]));
     pushed->first = items[i].index;
     pushed->before = common_before(codes, starts, count, items[i].index);
     pushed->child = refs[i], pushed->height = FACET_HEIGHT_OF(items[i].size);

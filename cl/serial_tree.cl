@@ -3,13 +3,6 @@
 #include "bins.h"
 #include "serial_sweep.h"
 
-#ifndef LEAF_SURE
-#define LEAF_SURE 8u
-#endif
-#ifndef LEAF_MOST
-#define LEAF_MOST 8u
-#endif
-
 // As build_bottoms of cl/bottom.cl, `each` subtrees a work-item.
 __kernel void build_bottoms(PRIMITIVES restrict primitives, __global const uint* starts, __global uint* order,
                             __global Node* nodes, __global Item* items, __global uint* refs,

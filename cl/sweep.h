@@ -15,15 +15,6 @@
 
 #define SWEEP_MOST FACET_SWEEP_MOST
 
-// A subtree of up to LEAF_SURE boxes is a leaf, one of up to LEAF_MOST if testing all of them costs no more
-// than visiting its children; each at least 1.
-#ifndef LEAF_SURE
-#define LEAF_SURE 2u
-#endif
-#ifndef LEAF_MOST
-#define LEAF_MOST 4u
-#endif
-
 // Words of local memory, in the order in which they stand.
 #define SWEEP_BOX 0u        // [6][32] floats
 #define SWEEP_WEIGHT 192u   // what a box counts in the heuristic, a float; without it, 1

@@ -5,6 +5,20 @@
 #include "tracer/morton.hpp"
 
 namespace facet::tracer {
+namespace {
+
+/// The first arguments of what joins items; how many they are.
+std::uint32_t set_items(runtime::handler& h, const sorted_places& places, tree_parts& parts) {
+  std::uint32_t k = 0;
+  h.set_arg(k++, runtime::accessor{places.codes, h, runtime::read_only});
+  h.set_arg(k++, runtime::accessor{places.starts, h, runtime::read_only});
+  h.set_arg(k++, runtime::accessor{parts.items, h, runtime::read_write});
+  h.set_arg(k++, runtime::accessor{parts.refs, h, runtime::read_write});
+  h.set_arg(k++, runtime::accessor{parts.nodes, h, runtime::read_write});
+  return k;
+}
+
+}  // namespace
 
 template <class Primitive>
 levels<Primitive>::levels(const runtime::queue& q, const runtime::source_tree& kernels,
@@ -75,15 +89,13 @@ void levels<Primitive>::merge_items(const sorted_places& places, tree_parts& par
     h.fill(runtime::accessor{ends_, h, runtime::write_only}, FACET_NONE);
   });
   steps.push_back({"merge_items", queue_.submit([&](runtime::handler& h) {
-                     const runtime::accessor codes{places.codes, h, runtime::read_only};
-                     const runtime::accessor starts{places.starts, h, runtime::read_only};
-                     const runtime::accessor items{parts.items, h, runtime::read_only};
-                     const runtime::accessor refs{parts.refs, h, runtime::read_only};
-                     const runtime::accessor nodes{parts.nodes, h, runtime::read_write};
+                     std::uint32_t k = set_items(h, places, parts);
                      const runtime::accessor ends{ends_, h, runtime::read_write};
                      const runtime::accessor told{told_, h, runtime::read_write};
-                     h.set_args(codes, starts, items, refs, nodes, ends, told, places.count,
-                                places.subtrees);
+                     h.set_arg(k++, ends);
+                     h.set_arg(k++, told);
+                     h.set_arg(k++, places.count);
+                     h.set_arg(k++, places.subtrees);
                      h.parallel_for(padded(places.subtrees, group_), items_);
                    })});
 }
@@ -94,26 +106,23 @@ void levels<Primitive>::merge_serially(const sorted_places& places, tree_parts& 
   const std::uint32_t run = each(places.subtrees), runs = (places.subtrees + run - 1) / run;
   hold(ends_, runs);
   steps.push_back({"merge_runs", queue_.submit([&](runtime::handler& h) {
-                     const runtime::accessor codes{places.codes, h, runtime::read_only};
-                     const runtime::accessor starts{places.starts, h, runtime::read_only};
-                     const runtime::accessor items{parts.items, h, runtime::read_write};
-                     const runtime::accessor refs{parts.refs, h, runtime::read_write};
-                     const runtime::accessor nodes{parts.nodes, h, runtime::read_write};
+                     std::uint32_t k = set_items(h, places, parts);
                      const runtime::accessor loose{ends_, h, runtime::write_only};
-                     h.set_args(codes, starts, items, refs, nodes, loose, places.count,
-                                places.subtrees, run);
+                     h.set_arg(k++, loose);
+                     h.set_arg(k++, places.count);
+                     h.set_arg(k++, places.subtrees);
+                     h.set_arg(k++, run);
                      h.parallel_for(in_groups(runs, 1), items_);
                    })});
   steps.push_back({"merge_loose", queue_.submit([&](runtime::handler& h) {
-                     const runtime::accessor codes{places.codes, h, runtime::read_only};
-                     const runtime::accessor starts{places.starts, h, runtime::read_only};
-                     const runtime::accessor items{parts.items, h, runtime::read_only};
-                     const runtime::accessor refs{parts.refs, h, runtime::read_only};
-                     const runtime::accessor nodes{parts.nodes, h, runtime::read_write};
+                     std::uint32_t k = set_items(h, places, parts);
                      const runtime::accessor loose{ends_, h, runtime::read_only};
                      const runtime::accessor told{told_, h, runtime::read_write};
-                     h.set_args(codes, starts, items, refs, nodes, loose, told, places.count,
-                                places.subtrees, run);
+                     h.set_arg(k++, loose);
+                     h.set_arg(k++, told);
+                     h.set_arg(k++, places.count);
+                     h.set_arg(k++, places.subtrees);
+                     h.set_arg(k++, run);
                      h.parallel_for(in_groups(1, 1), loose_);
                    })});
 }
