@@ -21,6 +21,7 @@ int main(int argc, char** argv) {
   facet::bench::add_sort_row(app);
   facet::bench::add_fold_row(app);
   facet::bench::add_move_row(app);
+  facet::bench::add_limits_row(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -35,4 +35,7 @@ void add_fold_row(CLI::App& app);
 /// Scenes that move on a device against ones that are made anew.
 void add_move_row(CLI::App& app);
 
+/// What rays visit, and the device's own rates beside theirs.
+void add_limits_row(CLI::App& app);
+
 }  // namespace facet::bench
