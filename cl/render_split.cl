@@ -4,11 +4,13 @@
 //   for each depth
 //     trace_rays              what rays of it meet
 //     shade_rays              the surfaces, and the rays that follow
-//     light_rays              what a light adds, for each light
+//   light_rays                what a light adds to all of them, for each light
 //   sum_samples               each pixel's tree, in the order of states.h
 //
 // Shading by itself waits for memory, and traversal for work-items that are many: together they would need
 // registers that keep work-items few.
+//
+// A launch ends with its longest ray, while most of the device waits: so a light's rays of all depths are one.
 //
 // Pixels are taken in blocks of 8 by 4, so that a warp's rays go the same way.
 #include "eye.h"
@@ -40,7 +42,7 @@ __kernel void eye_rays(__global const View* view, __global float4* origins, __gl
 }
 
 // Rays first to first + count: those that miss are done; of the others hits, and what they belong to, are listed.
-// `counts` are those of the depth: of hits, of the rays that follow them, and of the hits before each light.
+// `counts` are those of the sample so far: of hits, of rays that follow some, and of the hits before each light.
 __kernel void trace_rays(__global const World* world, __global const SceneNode* nodes,
                          __global const Instance* instances, __global const TriangleInfo* infos,
                          __global const Material* materials, __global Faults* faults, GEOMETRY positions,
@@ -85,7 +87,8 @@ static inline Surface surface_in(__global const float4* surfaces, uint k) {
   return f;
 }
 
-// Hits of one depth. Rays that follow go from `next` on; beyond `capacity` they are counted, and not written.
+// Hits of one depth: from first_hit on. Rays that follow go behind the eye rays; beyond `capacity` they are counted,
+// and not written.
 __kernel void shade_rays(__global const World* world, __global const SceneNode* nodes,
                          __global const Instance* instances, __global const TriangleInfo* infos,
                          __global const Material* materials, __global Faults* faults, GEOMETRY positions,
@@ -93,9 +96,10 @@ __kernel void shade_rays(__global const World* world, __global const SceneNode* 
                          __global float4* origins, __global float4* directions, __global float4* throughputs,
                          __global uint* media, __global RayNode* tree, __global const float4* hits,
                          __global const uint2* hit_rays, __global float4* surfaces, __global uint* lit_hits,
-                         volatile __global uint* counts, uint depth, uint next, uint capacity) {
+                         volatile __global uint* counts, uint depth, uint first_hit, uint eyes,
+                         uint capacity) {
   __local uint pool[2];
-  const uint k = (uint)get_global_id(0);
+  const uint k = first_hit + (uint)get_global_id(0);
   const Scene s = scene_of(world, nodes, instances, infos, materials, faults);
   const RayLists rays = ray_lists(origins, directions, throughputs, media);
   PendingRay followed, other[1];
@@ -122,8 +126,8 @@ __kernel void shade_rays(__global const World* world, __global const SceneNode* 
   }
   // A group's reflected rays lie together, and so do its refracted ones.
   volatile __global uint* length = &counts[1];
-  const uint first = next + appended(followers, pool, length);
-  const uint second = next + appended(others, pool, length);
+  const uint first = eyes + appended(followers, pool, length);
+  const uint second = eyes + appended(others, pool, length);
   for (uint l = 0u; l < view->light_count; ++l) {
     Lighting to;
     const bool is_lit = is_there && stands_before(&lights[l], &f, &to);

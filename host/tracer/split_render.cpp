@@ -96,10 +96,6 @@ void split_renderer::eye_rays(const tile& t, std::uint32_t index, std::uint32_t 
 
 void split_renderer::trace_rays(std::uint32_t depth, std::uint32_t first, std::uint32_t count,
                                 runtime::buffer<View>& view) {
-  run("fill", [&](runtime::handler& h) {
-    const runtime::accessor all{counts_, h, runtime::write_only};
-    h.fill(all, 0u);
-  });
   run("trace_rays " + std::to_string(depth), [&](runtime::handler& h) {
     std::uint32_t k = state_.set_geometry(h);
     h.set_arg(k++, runtime::accessor{view, h, runtime::read_only});
@@ -114,8 +110,8 @@ void split_renderer::trace_rays(std::uint32_t depth, std::uint32_t first, std::u
   });
 }
 
-void split_renderer::shade_rays(std::uint32_t depth, std::uint32_t hits, std::uint32_t next,
-                                runtime::buffer<View>& view) {
+void split_renderer::shade_rays(std::uint32_t depth, std::uint32_t first_hit, std::uint32_t hits,
+                                std::uint32_t eyes, runtime::buffer<View>& view) {
   run("shade_rays " + std::to_string(depth), [&](runtime::handler& h) {
     std::uint32_t k = state_.set_normals(h, state_.set_geometry(h));
     h.set_arg(k++, runtime::accessor{state_.lights, h, runtime::read_only});
@@ -123,13 +119,14 @@ void split_renderer::shade_rays(std::uint32_t depth, std::uint32_t hits, std::ui
     k = set_rays(h, k);
     h.set_arg(k++, runtime::accessor{hits_, h, runtime::read_only});
     k = set_surfaces(h, k);
-    for (const std::uint32_t x : {depth, next, std::uint32_t(capacity_)}) h.set_arg(k++, x);
+    for (const std::uint32_t x : {depth, first_hit, eyes, std::uint32_t(capacity_)})
+      h.set_arg(k++, x);
     h.parallel_for(padded(hits, group_), shade_);
   });
 }
 
-void split_renderer::light_rays(std::uint32_t depth, std::uint32_t hits, std::uint32_t light) {
-  run("light_rays " + std::to_string(depth), [&](runtime::handler& h) {
+void split_renderer::light_rays(std::uint32_t hits, std::uint32_t light) {
+  run("light_rays " + std::to_string(light), [&](runtime::handler& h) {
     std::uint32_t k = state_.set_geometry(h);
     h.set_arg(k++, runtime::accessor{state_.lights, h, runtime::read_only});
     k = set_surfaces(h, set_rays(h, k));
@@ -156,18 +153,26 @@ void split_renderer::sum_samples(const tile& t, std::uint32_t index, std::uint32
 bool split_renderer::sample(const tile& t, std::uint32_t index, runtime::buffer<View>& view,
                             runtime::buffer<texel>& pixels) {
   const auto eyes = std::uint32_t(places(t));
+  run("fill", [&](runtime::handler& h) {
+    const runtime::accessor all{counts_, h, runtime::write_only};
+    h.fill(all, 0u);
+  });
   eye_rays(t, index, eyes, view);
-  std::uint32_t first = 0, count = eyes;
+  std::uint32_t hits = 0, first = 0, count = eyes;
   for (std::uint32_t depth = 0; depth <= max_depth_ && count > 0; ++depth) {
     trace_rays(depth, first, count, view);
-    shade_rays(depth, count, first + count, view);
-    for (std::uint32_t l = 0; l < state_.model.lights.size(); ++l) light_rays(depth, count, l);
+    shade_rays(depth, hits, count, eyes, view);
     first += count;
-    if (depth == max_depth_) break;
+    if (depth == max_depth_) {
+      hits += count;  // at most
+      break;
+    }
     const runtime::host_accessor counts{counts_, runtime::read_only};
-    count = counts[1];
-    if (count > capacity_ - first) return false;
+    hits = counts[0];
+    if (counts[1] > capacity_ - eyes) return false;
+    count = eyes + counts[1] - first;
   }
+  for (std::uint32_t l = 0; l < state_.model.lights.size(); ++l) light_rays(hits, l);
   sum_samples(t, index, eyes, view, pixels);
   return true;
 }

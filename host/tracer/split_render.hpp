@@ -46,9 +46,9 @@ class split_renderer {
                 runtime::buffer<View>& view);
   void trace_rays(std::uint32_t depth, std::uint32_t first, std::uint32_t count,
                   runtime::buffer<View>& view);
-  void shade_rays(std::uint32_t depth, std::uint32_t hits, std::uint32_t next,
-                  runtime::buffer<View>& view);
-  void light_rays(std::uint32_t depth, std::uint32_t hits, std::uint32_t light);
+  void shade_rays(std::uint32_t depth, std::uint32_t first_hit, std::uint32_t hits,
+                  std::uint32_t eyes, runtime::buffer<View>& view);
+  void light_rays(std::uint32_t hits, std::uint32_t light);
   void sum_samples(const tile& t, std::uint32_t index, std::uint32_t count,
                    runtime::buffer<View>& view, runtime::buffer<texel>& pixels);
   std::uint32_t set_rays(runtime::handler& h, std::uint32_t k);
@@ -65,7 +65,7 @@ class split_renderer {
   runtime::buffer<std::array<std::uint32_t, 2>> hit_rays_;
   runtime::buffer<RayNode> tree_;
   runtime::buffer<std::uint32_t> lit_hits_;
-  runtime::buffer<std::uint32_t> counts_;                     ///< of a depth (cl/render_split.cl)
+  runtime::buffer<std::uint32_t> counts_;                     ///< of a sample (cl/render_split.cl)
   std::vector<std::pair<std::string, runtime::event>> done_;  ///< of the tile under way
 };
 
