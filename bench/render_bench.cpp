@@ -1,5 +1,5 @@
 // Row `render`: whole pictures on a device, of each width and depth that is asked for, by several
-// ways that take turns; rays counted by kind. A picture is one tile if the device has room for its
+// ways, all in turns; rays counted by kind. A picture is one tile if the device has room for its
 // rays.
 #include <algorithm>
 #include <cstdio>
@@ -115,45 +115,62 @@ json figures_of(const way& w, const std::string& name, const scene& s, shape p,
           {"pixels_that_differ", w.differs}};
 }
 
-/// Appends the figures of every way; true if all pictures are the same. Each shape has device
-/// scenes of its own: what it compiles and keeps on the device does not depend on the shapes before
-/// it.
-bool measure(const scene& s, const std::string& name, shape p, runtime::queue& queue,
-             const settings& o, json& results) {
-  const auto render = [&](tracer::device_scene& on, tracer::statistics& stats) {
-    return on.render(p.width, p.height, p.depth, &stats);
-  };
+/// A picture's shape, and all ways to make it.
+struct entry {
+  shape p;
   std::vector<way> ways;
+  study::picture_rays rays;
+};
+
+picture render(tracer::device_scene& on, shape p, tracer::statistics& stats) {
+  return on.render(p.width, p.height, p.depth, &stats);
+}
+
+/// One picture by each way, and its rays counted. The entry has device scenes of its own: kernels
+/// depend on the depth they were last compiled for, and memory for rays on the largest picture.
+entry prepared(const scene& s, shape p, runtime::queue& queue, const settings& o) {
+  entry e{p, {}, {}};
   picture first;
   for (const std::string& each : o.ways) {
     way w = way_of(each, o);
     w.options.tile_width = p.width, w.options.tile_height = p.height;
     w.on = std::make_unique<tracer::device_scene>(queue, s, w.options);
-    const picture found = render(*w.on, w.stats);
-    if (ways.empty()) first = found;
+    const picture found = render(*w.on, p, w.stats);
+    if (e.ways.empty()) first = found;
     w.differs = study::differing_pixels(first, found);
-    ways.push_back(std::move(w));
+    e.ways.push_back(std::move(w));
   }
-  tracer::device_scene counting(queue, s, study::counting_rays(ways[0].options));
+  tracer::device_scene counting(queue, s, study::counting_rays(e.ways[0].options));
   tracer::statistics counted;
-  render(counting, counted);
-  const study::picture_rays rays = study::rays_of(counted, ways[0].stats);
+  render(counting, p, counted);
+  e.rays = study::rays_of(counted, e.ways[0].stats);
+  return e;
+}
 
+/// Appends the figures of every shape and way, which all take turns, since a machine's speed moves;
+/// true if all pictures of a shape are the same.
+bool measure(const scene& s, const std::string& name, runtime::queue& queue, const settings& o,
+             json& results) {
+  std::vector<entry> entries;
+  for (const shape& p : shapes_of(s, o)) entries.push_back(prepared(s, p, queue, o));
   for (int k = 0; k < o.repeat; ++k)
-    for (way& w : ways) {
-      render(*w.on, w.stats);
-      w.kernel_ms.push_back(w.stats.kernel_ms.at(0));
-      w.wall_ms.push_back(w.stats.wall_ms);
-    }
+    for (entry& e : entries)
+      for (way& w : e.ways) {
+        render(*w.on, e.p, w.stats);
+        w.kernel_ms.push_back(w.stats.kernel_ms.at(0));
+        w.wall_ms.push_back(w.stats.wall_ms);
+      }
   bool are_same = true;
-  for (const way& w : ways) {
-    results.push_back(figures_of(w, name, s, p, rays));
-    are_same = are_same && w.differs == 0;
+  for (const entry& e : entries) {
+    for (const way& w : e.ways) {
+      results.push_back(figures_of(w, name, s, e.p, e.rays));
+      are_same = are_same && w.differs == 0;
+    }
+    std::printf("%-22s rays: %llu eye, %llu bounced, %llu shadow\n", name.c_str(),
+                static_cast<unsigned long long>(e.rays.eye),
+                static_cast<unsigned long long>(e.rays.bounced),
+                static_cast<unsigned long long>(e.rays.shadow));
   }
-  std::printf("%-22s rays: %llu eye, %llu bounced, %llu shadow\n", name.c_str(),
-              static_cast<unsigned long long>(rays.eye),
-              static_cast<unsigned long long>(rays.bounced),
-              static_cast<unsigned long long>(rays.shadow));
   std::fflush(stdout);
   return are_same;
 }
@@ -176,13 +193,11 @@ void run(settings o) {
       "compiled "
       "in milliseconds; pixels that are not the first way's\n");
   bool are_same = true;
-  const auto measure_all = [&](const scene& s, const std::string& name) {
-    for (const shape& p : shapes_of(s, o))
-      are_same &= measure(s, name, p, queue, o, report["results"]);
-  };
-  for (const std::string& path : o.scenes) measure_all(load_scene(path), name_of(path));
+  for (const std::string& path : o.scenes)
+    are_same &= measure(load_scene(path), name_of(path), queue, o, report["results"]);
   for (const std::string& path : o.meshes)
-    measure_all(study::still_life(read_obj(path).mesh), "still life: " + name_of(path));
+    are_same &= measure(study::still_life(read_obj(path).mesh), "still life: " + name_of(path),
+                        queue, o, report["results"]);
   if (!o.json.empty()) write_result(o.json, report);
   if (!are_same) throw std::runtime_error("ways to make one picture differ: see above");
 }
@@ -210,7 +225,7 @@ void add_render_row(CLI::App& app) {
   row->add_option("--group-width", o->group_width, "work-items; 0: the device's default");
   row->add_option("--group-height", o->group_height, "work-items; 0: the device's default");
   row->add_option("--width", o->widths,
-                  "pixels; 0: the scene's own; of several, each is measured at each depth")
+                  "pixels; 0: the scene's own; several are measured at each depth, all in turns")
       ->capture_default_str();
   row->add_option("--depth", o->depths, "bounces, one or several; -1: the scene's own")
       ->capture_default_str();
