@@ -104,6 +104,8 @@ def _rays(axes, growth):
 
 def _by_factors(axes, _):
     axes.set_yscale("log")
+    low, high = axes.get_ylim()
+    axes.set_ylim(bottom=low * (low / high) ** 0.35)  # the legend's room: lines rise to the right
     axes.yaxis.set_major_locator(LogLocator(numticks=16))
     axes.yaxis.set_minor_formatter(NullFormatter())
 
@@ -124,7 +126,7 @@ def _from_0_or_by_factors(axes, growths):
     axes.yaxis.set_minor_formatter(NullFormatter())
 
 
-# What is drawn, and the scale of all columns: it is set when all is drawn.
+# What is drawn, and the scale, which is set when all columns are drawn.
 PANELS = {
     "pixels": ((_times_by_pixels, _by_factors), (_each_pixel, _from_0_or_by_factors)),
     "depth": ((_times, _from_0), (_rays, _from_0), (_each_ray, _from_0)),
@@ -136,7 +138,8 @@ def _foot(result, growth):
     """The caption, and which pictures had no room for all rays at once."""
     lines = [result.caption()]
     if growth.along == "pixels":
-        lines[0] += "; an exponent is of pixels, \N{PLUS-MINUS SIGN} its standard error"
+        lines.append("exponents are of pixels, \N{PLUS-MINUS SIGN} their standard errors; at the end: "
+                     "of the two largest pictures alone")
     for way, points in growth.ways.items():
         parts = [f"{p.width}{TIMES}{p.height} in {p.tiles}" for p in points if (p.tiles or 1) > 1]
         if parts:
@@ -182,8 +185,9 @@ def picture_growth(results, growths):
             style.plain(_foot(result, growth)), (0, 0), xycoords="axes fraction", xytext=(-40, -34),
             textcoords="offset points", va="top", fontsize=7, color=style.GREY)
     for row, (_, scale) in enumerate(panels):
-        for axes in grid[row]:
+        for axes in grid[row][:1] if is_shared else grid[row]:
             scale(axes, growths)
+        for axes in grid[row]:
             axes.legend(loc="best")
     figure.align_ylabels(grid[:, 0])
     height = figure.get_size_inches()[1]

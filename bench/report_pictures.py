@@ -19,7 +19,7 @@ def _row(r):
 
 
 def render(root, folder):
-    blocks = [table(f"Whole pictures by several ways that took turns, median (least\N{EN DASH}most); "
+    blocks = [table("Whole pictures by several ways that took turns, median (least\N{EN DASH}most); "
                     "rays: eye / reflected and refracted / shadow",
                     ("scene", "pixels", "#depth", "way", "#kernel, ms",
                      "#until it is on the host, ms", "#rays", "#Mrays/s", "#compiling, ms",
