@@ -3,10 +3,10 @@
 
     bench/plots.py RESULT.json... [--out FOLDER] [--name NAME]
 
-Results of `facet sweep`, `facet accuracy --variants` and `facet_bench growth` can be plotted
-(result_kinds.py); several files of one format and one scene are drawn side by side. Needs Python 3.10
-and matplotlib (Debian: python3-matplotlib). Exit codes are those of facet: 0 done, 2 usage, 3 a file
-that cannot be plotted, 6 output.
+Results of `facet sweep`, `facet accuracy --variants`, `facet_bench growth`, and `facet_bench render` with
+several widths or depths can be plotted (result_kinds.py); several files of one format and one scene
+are drawn side by side. Needs Python 3.10 and matplotlib (Debian: python3-matplotlib). Exit codes are
+those of facet: 0 done, 2 usage, 3 a file that cannot be plotted, 6 output.
 """
 
 import argparse
@@ -19,8 +19,8 @@ from results_file import ResultError
 
 def main(arguments):
     parser = argparse.ArgumentParser(
-        description="Plots results of `facet sweep`, `facet accuracy --variants` and `facet_bench "
-                    "growth`, from JSON to PNG and SVG.")
+        description="Plots results of `facet sweep`, `facet accuracy --variants`, and `facet_bench` "
+                    "growth and render, from JSON to PNG and SVG.")
     parser.add_argument("results", nargs="+", metavar="RESULT.json",
                         help="files of one format and scene are drawn side by side")
     parser.add_argument("--out", default=".", metavar="FOLDER", help="where the plots go (default: .)")

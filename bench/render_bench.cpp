@@ -1,5 +1,7 @@
-// Row `render`: whole pictures on a device, in one launch each, by several ways that take turns;
-// rays counted by kind.
+// Row `render`: whole pictures on a device, of each width and depth that is asked for, by several
+// ways, all in turns; rays counted by kind. A picture is one tile if the device has room for its
+// rays.
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -29,8 +31,9 @@ struct settings {
   std::string device = "0", kernels, flags, tuning, json;
   std::optional<tracer::choices> defaults;  ///< of `tuning`
   std::uint32_t group_width = 0, group_height = 0;
-  std::uint32_t width = 0;
-  int depth = -1, repeat = 5;
+  std::vector<std::uint32_t> widths{0};
+  std::vector<int> depths{-1};
+  int repeat = 5;
 };
 
 /// A way to make a picture, and its times.
@@ -62,11 +65,19 @@ way way_of(const std::string& name, const settings& o) {
 
 struct shape {
   std::uint32_t width, height, depth;
+  bool operator==(const shape&) const = default;
 };
 
-shape shape_of(const scene& s, const settings& o) {
-  const std::uint32_t width = o.width ? o.width : s.width;
-  return {width, height_for(s, width), o.depth < 0 ? s.max_depth : std::uint32_t(o.depth)};
+/// Every width at every depth, each once.
+std::vector<shape> shapes_of(const scene& s, const settings& o) {
+  std::vector<shape> all;
+  for (const int d : o.depths)
+    for (const std::uint32_t w : o.widths) {
+      const std::uint32_t width = w ? w : s.width;
+      const shape p{width, height_for(s, width), d < 0 ? s.max_depth : std::uint32_t(d)};
+      if (std::find(all.begin(), all.end(), p) == all.end()) all.push_back(p);
+    }
+  return all;
 }
 
 json spread(const std::vector<double>& ms) {
@@ -77,10 +88,10 @@ json spread(const std::vector<double>& ms) {
 json figures_of(const way& w, const std::string& name, const scene& s, shape p,
                 const study::picture_rays& rays) {
   const study::summary kernel = study::summarize(w.kernel_ms), wall = study::summarize(w.wall_ms);
-  std::printf("%-22s %5ux%-5u %-13s %9.2f (%.2f-%.2f)  %9.2f  %8.1f  %7.0f  %zu\n", name.c_str(),
-              p.width, p.height, w.name.c_str(), kernel.median, kernel.least, kernel.most,
-              wall.median, double(rays.total()) / kernel.median * 1e-3, w.stats.compile_ms,
-              w.differs);
+  std::printf("%-22s %5ux%-5u depth %-2u %-13s %9.2f (%.2f-%.2f)  %9.2f  %8.1f  %7.0f  %zu\n",
+              name.c_str(), p.width, p.height, p.depth, w.name.c_str(), kernel.median, kernel.least,
+              kernel.most, wall.median, double(rays.total()) / kernel.median * 1e-3,
+              w.stats.compile_ms, w.differs);
   return {{"scene", name},
           {"way", w.name},
           {"width", p.width},
@@ -93,6 +104,7 @@ json figures_of(const way& w, const std::string& name, const scene& s, shape p,
           {"geometry", w.stats.geometry},
           {"pixels_a_work_item", w.stats.rays_a_work_item},
           {"split", w.stats.is_split},
+          {"tiles", w.stats.tiles},
           {"rays", {{"eye", rays.eye}, {"bounced", rays.bounced}, {"shadow", rays.shadow}}},
           {"kernel_ms", spread(w.kernel_ms)},
           {"wall_ms", spread(w.wall_ms)},
@@ -103,44 +115,62 @@ json figures_of(const way& w, const std::string& name, const scene& s, shape p,
           {"pixels_that_differ", w.differs}};
 }
 
-/// Appends the figures of every way; true if all pictures are the same.
-bool measure(const scene& s, const std::string& name, runtime::queue& queue, const settings& o,
-             json& results) {
-  const shape p = shape_of(s, o);
-  const auto render = [&](tracer::device_scene& on, tracer::statistics& stats) {
-    return on.render(p.width, p.height, p.depth, &stats);
-  };
+/// A picture's shape, and all ways to make it.
+struct entry {
+  shape p;
   std::vector<way> ways;
+  study::picture_rays rays;
+};
+
+picture render(tracer::device_scene& on, shape p, tracer::statistics& stats) {
+  return on.render(p.width, p.height, p.depth, &stats);
+}
+
+/// One picture by each way, and its rays counted. The entry has device scenes of its own: kernels
+/// depend on the depth they were last compiled for, and memory for rays on the largest picture.
+entry prepared(const scene& s, shape p, runtime::queue& queue, const settings& o) {
+  entry e{p, {}, {}};
   picture first;
   for (const std::string& each : o.ways) {
     way w = way_of(each, o);
     w.options.tile_width = p.width, w.options.tile_height = p.height;
     w.on = std::make_unique<tracer::device_scene>(queue, s, w.options);
-    const picture found = render(*w.on, w.stats);
-    if (ways.empty()) first = found;
+    const picture found = render(*w.on, p, w.stats);
+    if (e.ways.empty()) first = found;
     w.differs = study::differing_pixels(first, found);
-    ways.push_back(std::move(w));
+    e.ways.push_back(std::move(w));
   }
-  tracer::device_scene counting(queue, s, study::counting_rays(ways[0].options));
+  tracer::device_scene counting(queue, s, study::counting_rays(e.ways[0].options));
   tracer::statistics counted;
-  render(counting, counted);
-  const study::picture_rays rays = study::rays_of(counted, ways[0].stats);
+  render(counting, p, counted);
+  e.rays = study::rays_of(counted, e.ways[0].stats);
+  return e;
+}
 
+/// Appends the figures of every shape and way, which all take turns, since a machine's speed moves;
+/// true if all pictures of a shape are the same.
+bool measure(const scene& s, const std::string& name, runtime::queue& queue, const settings& o,
+             json& results) {
+  std::vector<entry> entries;
+  for (const shape& p : shapes_of(s, o)) entries.push_back(prepared(s, p, queue, o));
   for (int k = 0; k < o.repeat; ++k)
-    for (way& w : ways) {
-      render(*w.on, w.stats);
-      w.kernel_ms.push_back(w.stats.kernel_ms.at(0));
-      w.wall_ms.push_back(w.stats.wall_ms);
-    }
+    for (entry& e : entries)
+      for (way& w : e.ways) {
+        render(*w.on, e.p, w.stats);
+        w.kernel_ms.push_back(w.stats.kernel_ms.at(0));
+        w.wall_ms.push_back(w.stats.wall_ms);
+      }
   bool are_same = true;
-  for (const way& w : ways) {
-    results.push_back(figures_of(w, name, s, p, rays));
-    are_same = are_same && w.differs == 0;
+  for (const entry& e : entries) {
+    for (const way& w : e.ways) {
+      results.push_back(figures_of(w, name, s, e.p, e.rays));
+      are_same = are_same && w.differs == 0;
+    }
+    std::printf("%-22s rays: %llu eye, %llu bounced, %llu shadow\n", name.c_str(),
+                static_cast<unsigned long long>(e.rays.eye),
+                static_cast<unsigned long long>(e.rays.bounced),
+                static_cast<unsigned long long>(e.rays.shadow));
   }
-  std::printf("%-22s rays: %llu eye, %llu bounced, %llu shadow\n", name.c_str(),
-              static_cast<unsigned long long>(rays.eye),
-              static_cast<unsigned long long>(rays.bounced),
-              static_cast<unsigned long long>(rays.shadow));
   std::fflush(stdout);
   return are_same;
 }
@@ -194,8 +224,11 @@ void add_render_row(CLI::App& app) {
   row->add_option("--flags", o->flags, "added to the compiler's options");
   row->add_option("--group-width", o->group_width, "work-items; 0: the device's default");
   row->add_option("--group-height", o->group_height, "work-items; 0: the device's default");
-  row->add_option("--width", o->width, "pixels; 0: the scene's own")->capture_default_str();
-  row->add_option("--depth", o->depth, "bounces; -1: the scene's own")->capture_default_str();
+  row->add_option("--width", o->widths,
+                  "pixels; 0: the scene's own; several are measured at each depth, all in turns")
+      ->capture_default_str();
+  row->add_option("--depth", o->depths, "bounces, one or several; -1: the scene's own")
+      ->capture_default_str();
   row->add_option("--repeat", o->repeat, "pictures by each way, taking turns")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();

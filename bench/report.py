@@ -15,6 +15,7 @@ import sys
 import tempfile
 
 import report_benches
+import report_pictures
 import report_studies
 from report_origin import label, origins
 from report_page import heading, image, page
@@ -32,7 +33,7 @@ SECTIONS = {
     "facet-bench-build": (1, "building", "Building trees, beside a peer", report_benches.build),
     "facet-trees": (1, "trees", "How good trees are", report_benches.trees),
     "facet-bench-pictures": (1, "whole-pictures", "Whole pictures", report_benches.pictures),
-    "facet-bench-render": (1, "pictures-by-way", "Whole pictures, by several ways", report_benches.render),
+    "facet-bench-render": (1, "pictures-by-way", "Whole pictures, by several ways", report_pictures.render),
     "facet-bench-sort": (1, "sorting", "Sorting, beside peers", report_benches.sort),
     "facet-bench-fold": (1, "folding", "Folding", report_benches.fold),
     "facet-bench-move": (1, "moving", "Scenes that move", report_benches.move),

@@ -268,21 +268,3 @@ def move(root, _):
                    "#building", "#SAH cost, moved", "#anew", "#eye rays", "#bounce rays"), waves),
             table("Instances that move: milliseconds, likewise",
                   ("#instances", "#moving", "#made anew", "#times as fast"), placed)]
-
-
-def render(root, _):
-    rows = []
-    for r in root["results"].items():
-        rays = [r["rays"][kind].get(int) for kind in ("eye", "bounced", "shadow")]
-        kernel, wall = (r[key] for key in ("kernel_ms", "wall_ms"))
-        rows.append((r["scene"].get(str), f"{r['width'].get(int)}\N{MULTIPLICATION SIGN}"
-                     f"{r['height'].get(int)}", r["max_depth"].get(int), r["way"].get(str),
-                     spread_of(kernel["median"].get(float),
-                               [s.get(float) for s in kernel["all"].items()]),
-                     number(wall["median"].get(float)), " / ".join(number(n) for n in rays),
-                     number(r["mrays_per_s"].get(float)), number(r["compile_ms"].get(float)),
-                     number(r["pixels_that_differ"].get(int))))
-    return [table(f"Whole pictures by several ways that took turns, median (least\N{EN DASH}most); "
-                  "rays: eye / reflected and refracted / shadow",
-                  ("scene", "pixels", "#depth", "way", "#kernel, ms", "#until it is on the host, ms",
-                   "#rays", "#Mrays/s", "#compiling, ms", "#pixels that differ from the first way's"), rows)]

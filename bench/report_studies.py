@@ -15,6 +15,8 @@ PLOTS = {
     "linear": "speed of pictures against the error of linear values, for each variant",
     "displayed": "speed of pictures against the visible difference, for each variant",
     "growth": "time of a ray and time to build against triangles, on logarithmic axes",
+    "pixels": "time of a picture and of each pixel against pixels, on logarithmic axes",
+    "depth": "time of a picture, its rays by kind and the time of each ray against bounces",
 }
 
 

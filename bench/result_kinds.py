@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Callable
 
 import growth_results
+import picture_growth_results
 import sweep_results
 import variant_results
 from results_file import ResultError, read_file
@@ -27,6 +28,8 @@ KINDS = {kind.format: kind for kind in (
          "growth_figures"),
     Kind(variant_results.FORMAT, variant_results.VERSION, variant_results.read_variants,
          "frontier_figures"),
+    Kind(picture_growth_results.FORMAT, picture_growth_results.VERSION,
+         picture_growth_results.read_picture_growth, "picture_growth_figures"),
 )}
 
 

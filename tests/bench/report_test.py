@@ -16,6 +16,7 @@ import unittest
 sys.dont_write_bytecode = True
 from plots_helper import FilesTest  # noqa: E402
 import growth_plots_test  # noqa: E402
+import picture_growth_test  # noqa: E402
 import report  # noqa: E402
 
 PROGRAMS = [word for word in sys.argv[1:3] if word]
@@ -192,6 +193,17 @@ class Report(FilesTest):
                      "hill 162 levels wide 31.00 1.170 22.00 \N{EN DASH} 1.048 \N{PLUS-MINUS SIGN} 0.020 6 5.19 108"):
             self.assertIn(part, text)
 
+    def test_pictures_of_several_widths_have_a_plot_beside_their_table(self):
+        page = self.make(self.put("r.json", picture_growth_test.result()))
+        self.assertIn("knot.json 160\u00d780 5 default 33.3 (30\N{EN DASH}39.9) 66.6 "
+                      "51,200 / 128,000 / 76,800 1.5 2 0", re.sub(r"\s+", " ", page.text()))
+        self.assertEqual(len(page.all("img")), 1)
+        self.assertIn("Plot r-knot-depth5-pixels: time of a picture and of each pixel",
+                      page.all("img")[0]["alt"])
+        one = picture_growth_test.result(picture_growth_test.measured(160, 5))
+        page = self.make(self.put("r.json", one))
+        self.assertEqual((len(page.all("img")), len(page.all("table"))), (0, 2))
+
     def test_variants_have_their_speed_and_errors_or_why_they_have_none(self):
         text = re.sub(r"\s+", " ", self.make(self.put("v.json", variants())).text())
         for part in ("made up, 1,234 triangles: hits",
@@ -278,6 +290,8 @@ class Report(FilesTest):
             "fold": [bench, "fold", "--mesh", "terrain:1", "terrain:20", "--repeat", "2"],
             "move": [bench, "move", "--mesh", "soup:40", "--instances", "3", "--repeat", "2"],
             "growth": [bench, "growth", "--triangles", "10", "20", "--width", "64", "--repeat", "2"],
+            "render": [bench, "render", knot, "--width", "32", "64", "--depth", "0", "2", "--way", "default",
+                       "--repeat", "2"],
         }
         files = []
         for name, command in commands.items():
@@ -286,7 +300,7 @@ class Report(FilesTest):
         page = self.make(*files)
         self.assertEqual(page.faults, [])
         self.assertEqual(len(page.all("section")), 1 + len(commands))
-        self.assertEqual(len(page.all("img")), 2 + 2)
+        self.assertEqual(len(page.all("img")), 2 + 2 + 4)  # of sweep, growth and render
         with open(files[0], encoding="utf-8") as file:
             device = json.load(file)["device"]["name"]
         count = collections.Counter(re.findall(re.escape(device), page.text()))
