@@ -97,6 +97,15 @@ static inline Each crossed_at(Each face, float inverse, float offset) {
   return fma(face, (Each)(inverse), (Each)(offset));
 }
 
+// What three axes have in common, from tmin to best.
+static inline void common_interval(Each nx, Each ny, Each nz, Each fx, Each fy, Each fz, float tmin, float best,
+                                   Each* near, Each* far) {
+  const Each x = FACET_CULL_MAX(nx, (Each)(tmin)), a = FACET_CULL_MIN(fx, (Each)(best));
+  const Each y = FACET_CULL_MAX(ny, x), b = FACET_CULL_MIN(fy, a);
+  *near = FACET_CULL_MAX(nz, y);
+  *far = FACET_CULL_MIN(fz, b);
+}
+
 // The intervals of a node's children, cut to tmin and best: child c must be visited exactly
 // where near c <= far c. `faces` are the node's six sides in order.
 static inline void child_intervals(const Slabs s, const Sides near_at, __global const float* faces,
@@ -108,10 +117,41 @@ static inline void child_intervals(const Slabs s, const Sides near_at, __global 
   nx = crossed_at(nx, s.inverse.x, s.near_offset.x), fx = crossed_at(fx, s.inverse.x, s.far_offset.x);
   ny = crossed_at(ny, s.inverse.y, s.near_offset.y), fy = crossed_at(fy, s.inverse.y, s.far_offset.y);
   nz = crossed_at(nz, s.inverse.z, s.near_offset.z), fz = crossed_at(fz, s.inverse.z, s.far_offset.z);
-  const Each x = FACET_CULL_MAX(nx, (Each)(tmin)), a = FACET_CULL_MIN(fx, (Each)(best));
-  const Each y = FACET_CULL_MAX(ny, x), b = FACET_CULL_MIN(fy, a);
-  *near = FACET_CULL_MAX(nz, y);
-  *far = FACET_CULL_MIN(fz, b);
+  common_interval(nx, ny, nz, fx, fy, fz, tmin, best, near, far);
 }
+
+#ifndef FACET_WIDE
+
+// An inverse direction's parts above and below 0. One of them is 0, as is its product with a face.
+typedef struct {
+  float3 above, below;
+} Parts;
+
+static inline Parts parts_of(const Slabs s) {
+  Parts p;
+  p.above = s.inverse > 0.0f ? s.inverse : (float3)(0.0f);
+  p.below = s.inverse > 0.0f ? (float3)(0.0f) : s.inverse;
+  return p;
+}
+
+static inline void cross_by_parts(__global const float* axis, float above, float below, float near_offset,
+                                  float far_offset, Each* near, Each* far) {
+  const float4 sides = *(__global const float4*)axis;
+  *near = fma(sides.hi, (Each)(below), crossed_at(sides.lo, above, near_offset));
+  *far = fma(sides.lo, (Each)(below), crossed_at(sides.hi, above, far_offset));
+}
+
+// The same intervals as child_intervals gives. A GPU chooses between sides at half the rate of an fma, and by what
+// finds minima and maxima, too, which is as much as that can do.
+static inline void child_intervals_by_parts(const Slabs s, const Parts p, __global const float* faces, float tmin,
+                                            float best, Each* near, Each* far) {
+  Each nx, fx, ny, fy, nz, fz;
+  cross_by_parts(faces, p.above.x, p.below.x, s.near_offset.x, s.far_offset.x, &nx, &fx);
+  cross_by_parts(faces + 4u, p.above.y, p.below.y, s.near_offset.y, s.far_offset.y, &ny, &fy);
+  cross_by_parts(faces + 8u, p.above.z, p.below.z, s.near_offset.z, s.far_offset.z, &nz, &fz);
+  common_interval(nx, ny, nz, fx, fy, fz, tmin, best, near, far);
+}
+
+#endif
 
 #endif

@@ -1,13 +1,6 @@
 // Rays from a buffer, hits to a buffer: one ray a work-item.
 #include "trace.h"
 
-static inline void write_hit(__global Hit* hits, __global uint* instances, size_t i, const Query* q) {
-  hits[i] = hit_of(q);
-#ifndef FACET_NO_INSTANCES
-  instances[i] = q->instance;
-#endif
-}
-
 __kernel void trace_closest(__global const World* world, __global const SceneNode* nodes,
                             __global const Instance* instances, __global const TriangleInfo* infos,
                             __global const Material* materials, __global Faults* faults, GEOMETRY positions,

@@ -52,10 +52,7 @@ SELDOM void trace_alone(const Scene* s, GEOMETRY positions, __global const Ray* 
                         __global Hit* hits, __global uint* hit_instances) {
   for (uint i = 0u; i < count; ++i) {
     const Query q = traced_query(s, positions, rays + i, mode);
-    hits[i] = hit_of(&q);
-#ifndef FACET_NO_INSTANCES
-    hit_instances[i] = q.instance;
-#endif
+    write_hit(hits, hit_instances, i, &q);
   }
 }
 

@@ -29,28 +29,35 @@ static inline void finish(const Scene* s, GEOMETRY positions, float3 o, float3 d
   q->v = shares.y;
 }
 
-// A ray that cannot be used (triangle.h: space_of), or whose tmin or tmax is NaN, meets nothing and
-// is counted; a negative tmin counts as 0. For a miss t is tmax. `end`: see light.h.
+// Where a query begins, and at which t; false if it has ended there. A ray that cannot be used (space.h:
+// space_of), or whose tmin or tmax is NaN, meets nothing and is counted; a negative tmin counts as 0. For a miss t
+// is tmax. `end`: see light.h.
+static inline bool begin_query(const Scene* s, float3 o, float3 d, float tmin, float tmax, float end, Query* q,
+                               Space* space, float* start) {
+  q->t = tmax;
+  q->place = q->slot = FACET_NONE;
+  q->u = q->v = 0.0f;
+  q->instance = q->triangle = FACET_NONE;
+  q->depth[0] = q->depth[1] = q->depth[2] = 0;
+  q->t_end = end;
+#ifdef FACET_COUNT_CROSSINGS
+  q->entries = q->exits = 0u;
+#endif
+  *start = tmin < 0.0f ? 0.0f : tmin;
+  if (*start > tmax) return false;
+  if (!(*start <= tmax) || !space_of(space, o, d, s->reach)) {
+    atomic_inc(&s->faults->refused);
+    return false;
+  }
+  return s->triangle_count != 0u;
+}
+
 static inline Query traverse_to(const Scene* s, GEOMETRY positions, float3 o, float3 d, float tmin,
                                 float tmax, float end, uint mode) {
   Query q;
-  q.t = tmax;
-  q.place = q.slot = FACET_NONE;
-  q.u = q.v = 0.0f;
-  q.instance = q.triangle = FACET_NONE;
-  q.depth[0] = q.depth[1] = q.depth[2] = 0;
-  q.t_end = end;
-#ifdef FACET_COUNT_CROSSINGS
-  q.entries = q.exits = 0u;
-#endif
   Space space;
-  const float start = tmin < 0.0f ? 0.0f : tmin;
-  if (start > tmax) return q;
-  if (!(start <= tmax) || !space_of(&space, o, d, s->reach)) {
-    atomic_inc(&s->faults->refused);
-    return q;
-  }
-  if (s->triangle_count == 0u) return q;
+  float start;
+  if (!begin_query(s, o, d, tmin, tmax, end, &q, &space, &start)) return q;
   search(s, positions, o, d, start, mode, &space, &q);
   if (mode == FACET_CLOSEST) finish(s, positions, o, d, &space, &q);
   return q;

@@ -6,9 +6,9 @@ tracer::options counting_rays(tracer::options o) {
   o.packets = tracer::packet_kind::off;
   // The counters of faults, which a picture has few of or none, count nearest hits and shadows,
   // too.
-  o.edits.push_back({"traverse.h", "  Query q;\n  q.t = tmax;",
+  o.edits.push_back({"traverse.h", "  Query q;\n  Space space;",
                      "  atomic_inc(mode == FACET_CLOSEST ? &s->faults->refused : "
-                     "&s->faults->crowded);\n  Query q;\n  q.t = tmax;"});
+                     "&s->faults->crowded);\n  Query q;\n  Space space;"});
   return o;
 }
 

@@ -21,6 +21,7 @@ struct device_scene::state {
   features used;
   bool in_images = false;
   bool in_packets = false;  ///< a work-item takes FACET_PACKET rays or pixels
+  bool refills = false;     ///< refill_kind::automatic may choose to
   runtime::source_tree kernels;
   scene model;  ///< camera, lights and limits of later pictures; with its meshes if they may move
   std::optional<std::vector<std::uint32_t>> camera_media;  ///< innermost first; none: not yet known
@@ -28,13 +29,15 @@ struct device_scene::state {
   std::uint64_t peak_bytes = 0;  ///< of device memory while the geometry was made
   runtime::buffer<Light> lights;
   runtime::buffer<Faults> faults;
-  std::optional<runtime::program> trace_program, render_program, probe_program;
+  std::optional<runtime::program> trace_program, refilled_program, render_program, probe_program;
   std::uint32_t render_stack = 0;  ///< entries of pending rays that render_program was built for
   std::shared_ptr<split_renderer> split = nullptr;  ///< of the last picture by several kernels
   std::shared_ptr<scene_mover> mover = nullptr;     ///< from the first move on
 
   /// Compiles on first use, and again where a deeper picture needs a larger stack of pending rays.
+  runtime::program compiled_to_trace(const char* file);
   runtime::kernel trace_kernel(bool any);
+  runtime::kernel refilled_kernel(const char* name);
   runtime::kernel render_kernel(std::uint32_t max_depth);
   const char* render_file() const;
   /// Whether the next picture is made by several kernels; they, for so many pixels at once.

@@ -77,6 +77,21 @@ bool is_in_packets(const options& o, bool is_wide, const tuning& t) {
          (o.packets == packet_kind::on || (o.packets == packet_kind::automatic && t.packets));
 }
 
+/// Whether refill_kind::automatic may mean on.
+bool may_refill(const options& o, bool is_wide, const tuning& t) {
+  const bool can = !is_wide && o.tree != tree_kind::none, in_warps = !t.warps || t.group % 32 == 0;
+  if (o.refill == refill_kind::on && !(can && in_warps))
+    throw runtime::exception(
+        runtime::errc::invalid,
+        "warps that take new rays were asked for, which need the narrow layout, a tree and "
+        "work-groups of a multiple of 32; found " +
+            std::string(is_wide ? "the wide layout"
+                        : !can  ? "no tree"
+                                : "groups of ") +
+            (can ? std::to_string(t.group) : ""));
+  return can && in_warps && t.warps;
+}
+
 runtime::buffer<Light> light_buffer(const std::vector<Light>& lights) {
   return lights.empty() ? runtime::buffer<Light>(1)
                         : runtime::buffer<Light>(lights.data(), lights.size());
@@ -102,7 +117,7 @@ device_scene::device_scene(runtime::queue queue, const scene& s, options o,
   const features used = o.all_features ? features::all() : features::of(s);
   const bool in_images = is_in_images(o, tuned);
   const bool wide = is_wide(o, in_images, tuned);
-  const bool in_packets = is_in_packets(o, wide, tuned);
+  const bool in_packets = is_in_packets(o, wide, tuned), refills = may_refill(o, wide, tuned);
   runtime::source_tree kernels =
       o.kernel_folder.empty() ? kernel_sources() : runtime::read_folder(o.kernel_folder);
   for (const kernel_edit& e : o.edits) apply(e, kernels);
@@ -119,9 +134,9 @@ device_scene::device_scene(runtime::queue queue, const scene& s, options o,
   const std::uint64_t peak = context.peak_memory() - before;
   scene model = o.movable ? s : without_meshes(s);
   state_ = std::make_unique<state>(state{
-      queue, std::move(o), tuned, used, in_images, in_packets, std::move(kernels), std::move(model),
-      media_at(s, s.view.position), std::move(geometry), peak, std::move(lights),
-      runtime::buffer<Faults>(1), std::nullopt, std::nullopt, std::nullopt, 0});
+      queue, std::move(o), tuned, used, in_images, in_packets, refills, std::move(kernels),
+      std::move(model), media_at(s, s.view.position), std::move(geometry), peak, std::move(lights),
+      runtime::buffer<Faults>(1), std::nullopt, std::nullopt, std::nullopt, std::nullopt, 0});
 }
 
 device_scene::~device_scene() = default;
@@ -144,13 +159,22 @@ kernel_description device_scene::describe_render(std::uint32_t max_depth) {
           kernel.work_group_size(s.queue.get_device())};
 }
 
+runtime::program device_scene::state::compiled_to_trace(const char* file) {
+  return compiled(queue, kernels, file,
+                  traversal_options(used, model.nesting, chosen.tree, in_images, geometry.is_wide,
+                                    geometry.stack, 0, tuned) +
+                      register_cap(tuned.trace_registers));
+}
+
 runtime::kernel device_scene::state::trace_kernel(bool any) {
   if (!trace_program)
-    trace_program = compiled(queue, kernels, in_packets ? "trace_packets.cl" : "trace.cl",
-                             traversal_options(used, model.nesting, chosen.tree, in_images,
-                                               geometry.is_wide, geometry.stack, 0, tuned) +
-                                 register_cap(tuned.trace_registers));
+    trace_program = compiled_to_trace(in_packets ? "trace_packets.cl" : "trace.cl");
   return trace_program->get_kernel(any ? "trace_any" : "trace_closest");
+}
+
+runtime::kernel device_scene::state::refilled_kernel(const char* name) {
+  if (!refilled_program) refilled_program = compiled_to_trace("trace_refilled.cl");
+  return refilled_program->get_kernel(name);
 }
 
 runtime::kernel device_scene::state::render_kernel(std::uint32_t max_depth) {
@@ -196,6 +220,7 @@ runtime::kernel device_scene::state::probe_kernel(const char* name) {
 
 void device_scene::state::forget_programs() {
   trace_program.reset();
+  refilled_program.reset();
   render_program.reset();
   probe_program.reset();
   split.reset();
@@ -256,6 +281,7 @@ void device_scene::state::describe(statistics& s) const {
   s.platform = d.platform_name();
   s.driver = d.driver_version();
   s.compile_ms = geometry.compile_ms + (trace_program ? trace_program->build_ms() : 0) +
+                 (refilled_program ? refilled_program->build_ms() : 0) +
                  (render_program ? render_program->build_ms() : 0);
   s.upload_ms = geometry.upload_ms;
   s.build_ms = geometry.build_ms;

@@ -37,6 +37,12 @@ enum class packet_kind { automatic, on, off };
 /// (split_render.hpp), or each pixel's all by one work-item. The picture is the same.
 enum class split_kind { automatic, on, off };
 
+/// Whether the work-items of a warp take new rays while others of it are on their way
+/// (cl/refill.h), or each has one ray. They can in the narrow layout, with a tree. Hits are the
+/// same. Of `trace` alone; automatic: for any hit, and where a sample of
+/// the rays shows that many would wait, on devices whose warps are known.
+enum class refill_kind { automatic, on, off };
+
 /// A change of the kernels' text: `from`, which must stand in `file` exactly once, becomes `to`.
 struct kernel_edit {
   std::string file, from, to;
@@ -48,6 +54,7 @@ struct options {
   layout_kind layout = layout_kind::automatic;
   packet_kind packets = packet_kind::automatic;
   split_kind split = split_kind::automatic;
+  refill_kind refill = refill_kind::automatic;
   std::uint32_t group_width = 0, group_height = 0;  ///< work-group; 0: the device's default
   bool driver_group = false;                        ///< the driver chooses the work-group instead
   std::uint32_t tile_width = 0, tile_height = 0;    ///< pixels a launch; 0: about 50 ms each
@@ -120,7 +127,8 @@ struct statistics {
   double upload_ms = 0;           ///< packing and moving the scene, host clock
   double build_ms = 0;            ///< tree, host clock from first launch to last
   std::vector<double> kernel_ms;  ///< trace: one a repeat; render: the sum over the tiles, once
-  /// Of a picture by several kernels: what each took, by name and depth, all tiles together.
+  /// Of a picture by several kernels: what each took, by name and depth or light, all tiles
+  /// together.
   std::map<std::string, double> parts_ms;
   double wall_ms = 0;      ///< first timed launch until the result is on the host
   std::uint64_t rays = 0;  ///< trace: those given; render: eye rays
@@ -130,6 +138,7 @@ struct statistics {
   std::string layout;                  ///< "wide" or "narrow", as chosen
   std::uint32_t rays_a_work_item = 1;  ///< or pixels
   bool is_split = false;               ///< render: by several kernels
+  bool is_refilled = false;            ///< trace: as refill_kind has it
   bool is_tuned = false;               ///< by options::defaults, not by the kind of device
   std::string features;                ///< what the kernel was compiled with, comma-separated
   std::uint32_t tree_depth = 0;

@@ -38,6 +38,7 @@ for target in spir64-unknown-unknown nvptx64-nvidia-nvcl amdgcn-amd-amdhsa; do
     echo "$target $as render.cl$options"
     [[ $as == check ]] || echo "$target $as render_split.cl$options"
     echo "$target $as trace.cl$options"
+    [[ $as == check || $options == *FACET_TREE_NONE* ]] || echo "$target $as trace_refilled.cl$options"
   done
   # What render.cl is made of, asked one by one: with everything, and with all left out.
   echo "$target code probe.cl"
@@ -84,7 +85,8 @@ for ranking in "" " -DFACET_SORT_MATCH"; do
     done
   done
 done >> "$jobs"
-for kernel in look_back.cl levels.cl trace.cl render.cl render_split.cl "trace.cl -DFACET_NO_INSTANCES"; do
+for kernel in look_back.cl levels.cl trace.cl render.cl render_split.cl trace_refilled.cl \
+    "trace.cl -DFACET_NO_INSTANCES" "trace_refilled.cl -DFACET_NO_INSTANCES"; do
   echo "nvptx64-nvidia-nvcl code $kernel -DFACET_PTX"
 done >> "$jobs"
 

@@ -73,7 +73,9 @@ mistake truncated_nodes() {
               "#else\n"
               "  const Each cut = as_float2(as_uint2(face) & 0xff800000u);\n"
               "#endif\n"
-              "  return fma(cut, (Each)(inverse), (Each)(offset));"}});
+              "  return fma(cut, (Each)(inverse), (Each)(offset));"},
+             {"box.h", "  const float4 sides = *(__global const float4*)axis;",
+              "  const float4 sides = as_float4(*(__global const uint4*)axis & 0xff800000u);"}});
 }
 
 mistake chained_ties() {
@@ -145,7 +147,7 @@ mistake exclusive_edges() {
 mistake short_stack() {
   return of(
       "short-stack", "what does not fit on a stack of 4 is left out",
-      {{"search_narrow.h", "if (is_first && is_second)", "if (is_first && is_second && *top < 4)"},
+      {{"search_narrow.h", "if (is_first && is_second)", "if (is_first && is_second && w->top < 4)"},
        {"search_wide.h", "stack[(*top)++] = max(a, b);",
         "if (*top < 4) stack[(*top)++] = max(a, b);"},
        {"search_wide.h", "int k = (*top)++;", "if (*top >= 4) continue;\n    int k = (*top)++;"},

@@ -54,6 +54,9 @@ std::vector<way> ways(const lab& l, bool with_brute_force) {
     all.back().options.layout = other_layout(l);
     add(name + ", image, 64", tree, geometry_kind::image, 0, 0, false);
   }
+  add("binned, buffer, refilled", tree_kind::binned, geometry_kind::buffer, 0, 0, false);
+  all.back().options.layout = layout_kind::narrow;
+  all.back().options.refill = tracer::refill_kind::on;
   add("binned, buffer, 1", tree_kind::binned, geometry_kind::buffer, 1, 1, false);
   add("binned, buffer, 16x16", tree_kind::binned, geometry_kind::buffer, 16, 16, false);
   add("binned, buffer, all features", tree_kind::binned, geometry_kind::buffer, 0, 0, true);
