@@ -1,5 +1,5 @@
-// How keys are cut into buckets by their upper bits: the same number of keys for each bucket, from the least key
-// of a sample on. What lies outside the sample belongs to the first bucket or the last one, so that
+// How keys are cut into buckets by their upper bits: 2^shift values of a key for each bucket, from the least
+// key of a sample on. What lies outside the sample belongs to the first bucket or the last one, so that
 // buckets are in order whatever the keys are; the sample decides only how fast they are sorted.
 #ifndef FACET_BUCKET_PLAN_H
 #define FACET_BUCKET_PLAN_H
@@ -28,7 +28,7 @@ static inline uint bucket_of(cut_type c, key_type key) {
   return (uint)min(sub_sat(key & c.mask, c.least) >> c.shift, (key_type)c.last);
 }
 
-// From 2^bits buckets, at least, between the keys lo and hi.
+// 2^bits buckets, of which half at least have a key between lo and hi.
 static inline cut_type cut_between(key_type lo, key_type hi, uint bits) {
   const uint length = bit_length(hi - lo);
   cut_type c;

@@ -44,7 +44,8 @@ static inline uint digit_in(digit_type d, record_type r) { return (uint)(key_of(
 static inline key_type bits_in(digit_type d) { return (key_type)d.mask << d.shift; }
 static inline key_type bits_below(uint bit) { return ((key_type)1 << bit) - 1u; }
 
-// The uppermost digit of the bits that are set, or the lowest one: `width` bits at most. Of no bits: an empty one.
+// The uppermost digit of the bits that are set, or the lowest one: `width` bits at most. Of no bits an empty
+// one.
 static inline digit_type upper_digit(key_type bits, uint width) {
   const uint end = bit_length(bits), shift = end > width ? end - width : 0u;
   return (digit_type){shift, (uint)bits_below(end - shift)};
@@ -69,8 +70,8 @@ static inline void move_by_digit(__global const record_type* in, __global record
   }
 }
 
-// By two digits, counted together. The outcome is in what is returned: a, b, or `in` if both are empty; `in` may
-// be a or b.
+// By two digits, counted together. The outcome is in what is returned: a, b, or `in` if both are empty. `in`
+// may be a or b.
 static inline __global record_type* sort_by_two(__global record_type* in, __global record_type* a,
                                                 __global record_type* b, uint count, digit_type lower,
                                                 digit_type upper) {

@@ -11,7 +11,9 @@
 #define DIGITS 2048u
 
 // Work-item t's tile: from first_of(t) to, but not, first_of(t + 1).
-static inline uint first_of(size_t t, uint tile, uint count) { return (uint)min((ulong)t * tile, (ulong)count); }
+static inline uint first_of(size_t t, uint tile, uint count) {
+  return (uint)min((ulong)t * tile, (ulong)count);
+}
 
 // counts[tile * DIGITS + digit]: how many keys of the tile have the digit.
 static inline void store_counts(const uint* own, __global uint* counts) {
