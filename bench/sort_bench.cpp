@@ -30,7 +30,7 @@ struct arguments {
               beside = "auto";
   unsigned bits = 0;
   std::uint32_t group = 0, items = 0, window = 0, registers = 0, copies = 0, histogram_groups = 0,
-                tiles = 0;
+                tiles = 0, few = 0, bucket_mean = 0, bucket_room = 0, bucket_most = 0;
   int repeat = 11;
   double std_most = 1e6;
   bool is_order = false, no_peers = false, shows_steps = false;
@@ -71,6 +71,10 @@ tracer::tuning tuned(const runtime::device& d, const arguments& o) {
   set(s.histogram_copies, o.copies);
   set(s.histogram_groups, o.histogram_groups);
   set(s.tiles, o.tiles);
+  set(s.few, o.few);
+  set(s.bucket_mean, o.bucket_mean);
+  set(s.bucket_room, o.bucket_room);
+  set(s.bucket_most, o.bucket_most);
   return t;
 }
 
@@ -89,7 +93,12 @@ json settings_of(const tracer::sort_tuning& s, const arguments& o) {
               {"histogram_copies", s.histogram_copies},
               {"histogram_groups", s.histogram_groups}});
   else
-    j.update({{"tiles", s.tiles}, {"tile_least", s.tile_least}});
+    j.update({{"tiles", s.tiles},
+              {"tile_least", s.tile_least},
+              {"few", s.few},
+              {"bucket_mean", s.bucket_mean},
+              {"bucket_room", s.bucket_room},
+              {"bucket_most", s.bucket_most}});
   return j;
 }
 
@@ -236,6 +245,11 @@ void add_sort_row(CLI::App& app) {
       ->group(how);
   row->add_option("--histogram-groups", o->histogram_groups)->group(how);
   row->add_option("--tiles", o->tiles, "of single work-items")->group(how);
+  row->add_option("--few", o->few, "keys that one work-item sorts, at most")->group(how);
+  row->add_option("--bucket-mean", o->bucket_mean, "keys, of buckets")->group(how);
+  row->add_option("--bucket-room", o->bucket_room, "keys, of a core's cache")->group(how);
+  row->add_option("--bucket-most", o->bucket_most, "keys that buckets are worth it with")
+      ->group(how);
   row->callback([o] { run(*o); });
 }
 

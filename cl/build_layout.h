@@ -109,6 +109,16 @@ struct FACET_ALIGNED FoldPlan {
   uint next;    // of a list threaded through the nodes
 };
 
+// How keys are cut into buckets (cl/bucket_plan.h).
+struct FACET_ALIGNED BucketPlan {
+  uint least_low, least_high;  // the key that bucket 0 begins at, 32 bits each
+  uint shift;                  // a bucket takes 2^shift keys that follow each other
+  uint buckets;                // at most 2048
+  uint is_used;                // 0: the keys would not spread, and are sorted without buckets
+  uint next;                   // the bucket that the next free work-item takes
+  uint spare[2];
+};
+
 #ifdef __OPENCL_C_VERSION__
 typedef struct Box Box;
 typedef struct Curve Curve;
@@ -118,6 +128,7 @@ typedef struct TopSides TopSides;
 typedef struct TreeNode TreeNode;
 typedef struct FoldCost FoldCost;
 typedef struct FoldPlan FoldPlan;
+typedef struct BucketPlan BucketPlan;
 #endif
 
 FACET_SIZE(Box, 32)
@@ -128,6 +139,7 @@ FACET_SIZE(TopSides, 64)
 FACET_SIZE(TreeNode, 48)
 FACET_SIZE(FoldCost, 96)
 FACET_SIZE(FoldPlan, 16)
+FACET_SIZE(BucketPlan, 32)
 
 #ifndef __OPENCL_C_VERSION__
 }  // namespace facet::tracer

@@ -17,7 +17,7 @@ static inline uint warp_ballot(uint value) { return value != 0u ? 1u : 0u; }
 static inline uint warp_from(uint value, uint from) { return value; }
 #endif
 
-// Steps that lanes may lose, 8 to 128 tried: fewer are better for rays that part, more for those that do not.
+// Steps that lanes may lose; of 32 to 512 fewer are better for rays that part, more for those that do not.
 #define LOST_STEPS 48u
 
 // The rays of a launch, as one warp sees them.

@@ -55,4 +55,8 @@ static inline void write_line_apart(const record_type* line, __global key_type* 
 }
 
 #endif
+
+static inline key_type lowest_bits(uint bits) { return ~(key_type)0 >> (KEY_BITS - bits); }
+static inline uint bit_length(key_type k) { return KEY_BITS - (uint)clz(k); }
+
 #endif

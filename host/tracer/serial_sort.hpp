@@ -1,9 +1,8 @@
-// The radix sort by single work-items, a large tile each: cl/radix_serial.cl.
+// The radix sort by single work-items, a large tile each: cl/radix_serial.cl, and where it is
+// faster the one by buckets.
 #pragma once
 
-#include <array>
-
-#include "tracer/sort_way.hpp"
+#include "tracer/bucket_sort.hpp"
 
 namespace facet::tracer {
 
@@ -13,17 +12,11 @@ class serial_sort : public sort_way<Key> {
   serial_sort(runtime::queue q, const runtime::source_tree& kernels, const tuning& t);
 
   std::vector<step> sort(const sort_request<Key>& r) override;
-  double compile_ms() const override { return program_.build_ms(); }
+  double compile_ms() const override { return program_.build_ms() + buckets_.compile_ms(); }
 
   static std::uint64_t scratch_bytes(std::uint32_t count, const sort_tuning& t);
-  /// Keys that a work-item takes of `count`.
-  static std::uint32_t tile_size(std::uint32_t count, const sort_tuning& t);
 
  private:
-  struct record {
-    Key key;
-    std::uint32_t value;
-  };
   struct cut;
   void count(const sort_request<Key>& r, const cut& c, std::vector<step>& steps);
   void scatter(const sort_request<Key>& r, const cut& c, std::vector<step>& steps);
@@ -33,9 +26,9 @@ class serial_sort : public sort_way<Key> {
   runtime::program program_;
   runtime::kernel count_keys_, count_records_, scan_, scatter_keys_, scatter_records_,
       scatter_apart_, take_apart_;
-  runtime::buffer<std::uint32_t> counts_{0};
-  std::array<runtime::buffer<record>, 2> records_{runtime::buffer<record>(0),
-                                                  runtime::buffer<record>(0)};
+  serial_scratch<Key> scratch_;
+  bucket_sort<Key> buckets_;
+  runtime::buffer<BucketPlan> no_plan_;
 };
 
 extern template class serial_sort<std::uint32_t>;

@@ -1,10 +1,13 @@
 #include "tracer/sort_tuning.hpp"
 
+#include <algorithm>
+
 namespace facet::tracer {
 
 sort_tuning sort_tuning_for(const runtime::device& d) {
   sort_tuning t;
   t.tiles = 4 * d.max_compute_units();
+  t.few = std::max(4096u, 131072 / d.max_compute_units());
   if (!d.is_gpu()) return t;
   t.face = sort_face::group;
   t.histogram_groups = 4 * d.max_compute_units();

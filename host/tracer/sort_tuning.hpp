@@ -37,6 +37,9 @@ struct sort_tuning {
   // Of single work-items.
   std::uint32_t tiles = 64;         ///< tiles a pass is cut into, at most
   std::uint32_t tile_least = 4096;  ///< keys a tile holds at least
+  std::uint32_t few = 16384;        ///< keys that one work-item sorts, at most
+  std::uint32_t bucket_mean = 8192, bucket_room = 16384;  ///< keys; a core's cache holds 3 rooms
+  std::uint32_t bucket_most = 65536;                      ///< keys that buckets are worth it with
 };
 
 /// Measured defaults by kind of device (`facet_bench sort`).

@@ -57,10 +57,12 @@ for target in spir64-unknown-unknown nvptx64-nvidia-nvcl amdgcn-amd-amdhsa; do
         "radix_sort.cl -DFACET_LOOK_BACK -DFACET_SORT_BESIDE -DGROUP=512 -DITEMS=3 -DCOPIES=2"; do
       echo "$target code $kernel -DKEY=$key"
     done
-    # A CPU's kernel: its stack is more than AMD's GPUs have.
+    # A CPU's kernels: their stack is more than AMD's GPUs have.
     as=check
     [[ $target == spir64* ]] && as=code
-    echo "$target $as radix_serial.cl -DKEY_BITS=$([[ $key == uint ]] && echo 32 || echo 64)"
+    for kernel in radix_serial.cl radix_buckets.cl; do
+      echo "$target $as $kernel -DKEY_BITS=$([[ $key == uint ]] && echo 32 || echo 64)"
+    done
   done
 done > "$jobs"
 for ((set = 0; set < 1 << ${#derived[@]}; ++set)); do

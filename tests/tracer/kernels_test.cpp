@@ -15,8 +15,9 @@ using namespace facet::tracer;
 
 TEST_CASE("the library holds every file of cl/, and a folder gives the same") {
   const runtime::source_tree& embedded = kernel_sources();
-  for (const char* name : {"layout.h", "trace.cl", "render.cl", "render_packets.cl", "morton.cl",
-                           "radix_sort.cl", "radix_serial.cl", "levels.cl", "tree.cl"})
+  for (const char* name :
+       {"layout.h", "trace.cl", "render.cl", "render_packets.cl", "morton.cl", "radix_sort.cl",
+        "radix_serial.cl", "radix_buckets.cl", "levels.cl", "tree.cl"})
     CHECK(embedded.files.count(name) == 1);
   const auto folder = std::filesystem::temp_directory_path() / "facet_kernels_test";
   std::filesystem::create_directories(folder);

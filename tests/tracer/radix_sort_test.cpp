@@ -113,13 +113,55 @@ TEST_CASE_TEMPLATE("sorted, reversed and equal keys", Key, std::uint32_t, std::u
   check(std::vector<Key>(20'000, Key(0)), 8 * sizeof(Key));
 }
 
+TEST_CASE_TEMPLATE("keys that do not spread evenly", Key, std::uint32_t, std::uint64_t) {
+  constexpr unsigned bits = 8 * sizeof(Key), half = bits / 2;
+  const std::size_t n = 20'000;
+  test::random r(7);
+  const auto keys_of = [&](auto key) {
+    std::vector<Key> keys(n);
+    for (std::size_t i = 0; i < n; ++i) keys[i] = key(Key(i), Key(r.bits()));
+    return keys;
+  };
+  // Two; as far apart as can be, or neighbours across a carry.
+  check(keys_of([](Key, Key x) { return x & 1 ? ~Key(0) : Key(0); }), bits);
+  check(keys_of([](Key, Key x) { return Key((Key(1) << (bits - 1)) - (x & 1)); }), bits);
+  // All within one bucket but for the least and the greatest.
+  check(keys_of([](Key i, Key x) {
+          return i == 77 ? ~Key(0) : i == 78 ? Key(0) : Key(1000 + x % 999);
+        }),
+        bits);
+  // Upper bits in common, so that only the others, below a gap, tell keys apart.
+  check(keys_of([](Key, Key x) { return Key((x >> half) % 40 << half | (x & 0xff)); }), bits);
+  check(keys_of([](Key, Key x) { return Key((x >> half) % 3 << half | x >> half); }), bits);
+  check(keys_of([](Key, Key x) { return Key(x << half); }), bits);
+  check(keys_of([](Key, Key x) { return Key(x >> half); }), bits);
+  // As many of each length; and so few in the greatest part that a sample may miss them.
+  check(keys_of([](Key, Key x) { return Key(x >> x % bits); }), bits);
+  check(keys_of([](Key i, Key x) { return i % 1999 == 1 ? x : Key(x & 0xffff); }), bits);
+  check(keys_of([](Key i, Key x) { return i % 1999 == 1 ? x : Key(~(x & 0xffff)); }), bits);
+  // In order, with steps; and a saw's teeth.
+  check(keys_of([](Key i, Key) { return Key(i * 100'003); }), bits);
+  check(keys_of([](Key i, Key) { return Key(~(i * 100'003)); }), bits);
+  check(keys_of([](Key i, Key) { return Key(i % 256 << (bits - 8)); }), bits);
+}
+
+TEST_CASE_TEMPLATE("so few keys that insertion suffices, and a few more", Key, std::uint32_t,
+                   std::uint64_t) {
+  for (std::size_t n = 1; n < 70; ++n)
+    for (const Key mask : {~Key(0), Key(7)}) check(random_keys<Key>(n, mask), 8 * sizeof(Key));
+}
+
 TEST_CASE_TEMPLATE("bits above those asked for do not count", Key, std::uint32_t, std::uint64_t) {
   for (const unsigned bits : {1u, 7u, 8u, 9u, 11u, 12u, 22u, 23u, 30u}) {
     check(random_keys<Key>(5'000, ~Key(0)), bits);
     check(std::vector<Key>(5'000, ~Key(0)), bits);
   }
   if (sizeof(Key) == 8)
-    for (const unsigned bits : {33u, 57u, 63u}) check(random_keys<Key>(5'000, ~Key(0)), bits);
+    for (const unsigned bits : {33u, 57u, 63u}) {
+      check(random_keys<Key>(5'000, ~Key(0)), bits);
+      check(std::vector<Key>(5'000, ~Key(0)), bits);
+      check(random_keys<Key>(5'000, ~(Key(0xfffff) << 20)), bits);
+    }
 }
 
 TEST_CASE_TEMPLATE("a million keys by what the device is tuned to", Key, std::uint32_t,

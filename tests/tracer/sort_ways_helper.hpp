@@ -22,8 +22,21 @@ inline std::vector<sort_way> sort_ways() {
   serial.sort.face = sort_face::serial;
   serial.sort.tiles = 7;
   serial.sort.tile_least = 1000;
+  const auto add_serial = [&](const std::string& name, std::uint32_t few,
+                              std::uint32_t bucket_most) {
+    serial.sort.few = few;
+    serial.sort.bucket_mean = 300;
+    serial.sort.bucket_room = 500;
+    serial.sort.bucket_most = bucket_most;
+    ways.push_back({name, serial, 1000, 1000});
+  };
   // A work-item alone keeps whole lines for each digit: more than a GPU's work-item may have.
-  if (!device().is_gpu()) ways.push_back({"serial", serial, 1000, 1000});
+  if (!device().is_gpu()) {
+    add_serial("serial", 0, 0);
+    add_serial("one work-item", 1u << 30, 0);
+    add_serial("buckets", 0, 1u << 30);
+    add_serial("buckets if keys spread", 0, 700);
+  }
 
   tuning group = tuning_for(device());
   group.sort.face = sort_face::group;
