@@ -8,6 +8,7 @@ namespace facet::study {
 
 tracer::options counting_visits(tracer::options o) {
   o.packets = tracer::packet_kind::off;
+  o.refill = tracer::refill_kind::off;
   const std::vector<tracer::kernel_edit> edits{
       {"query.h", "  float3 reach;\n  uint root,",
        "  float3 reach;\n  uint* visits;\n  uint root,"},
