@@ -27,7 +27,7 @@ struct arguments {
   std::vector<double> counts{1e3, 1e4, 1e5, 1e6, 1e7, 1 << 24};
   std::vector<unsigned> keys{32, 64};
   std::string device = "0", json, face = "auto", ranking = "auto", look_back = "auto",
-              beside = "auto";
+              beside = "auto", flags;
   unsigned bits = 0;
   std::uint32_t group = 0, items = 0, window = 0, registers = 0, copies = 0, histogram_groups = 0,
                 tiles = 0, few = 0, bucket_mean = 0, bucket_room = 0, bucket_most = 0;
@@ -54,6 +54,7 @@ std::string word_of(const std::map<std::string, T>& words, T value) {
 
 tracer::tuning tuned(const runtime::device& d, const arguments& o) {
   tracer::tuning t = tracer::tuning_for(d);
+  t.more_flags = o.flags;
   tracer::sort_tuning& s = t.sort;
   if (o.face != "auto") s.face = faces.at(o.face);
   if (o.ranking != "auto") s.ranking = rankings.at(o.ranking);
@@ -215,6 +216,7 @@ void add_sort_row(CLI::App& app) {
       ->capture_default_str();
   row->add_flag("--no-peers", o->no_peers, "the device alone");
   row->add_flag("--steps", o->shows_steps, "print each kernel's time");
+  row->add_option("--flags", o->flags, "added to the compiler's options");
   row->add_option("--json", o->json, "write the figures to this file");
 
   const char* how = "How to sort (0 and auto: as the device is tuned)";
