@@ -147,7 +147,8 @@ mistake exclusive_edges() {
 mistake short_stack() {
   return of(
       "short-stack", "what does not fit on a stack of 4 is left out",
-      {{"search_narrow.h", "if (is_first && is_second)", "if (is_first && is_second && w->top < 4)"},
+      {{"search_narrow.h", "if (is_first && is_second)",
+        "if (is_first && is_second && w->top < 4)"},
        {"search_wide.h", "stack[(*top)++] = max(a, b);",
         "if (*top < 4) stack[(*top)++] = max(a, b);"},
        {"search_wide.h", "int k = (*top)++;", "if (*top >= 4) continue;\n    int k = (*top)++;"},
