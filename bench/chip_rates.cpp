@@ -1,6 +1,5 @@
 #include "bench/chip_rates.hpp"
 
-#include <algorithm>
 #include <functional>
 
 #include "runtime/runtime.hpp"

@@ -87,11 +87,12 @@ json measure(const std::string& mesh, const char* kind, const std::vector<tracer
   const double visits = l.nodes + l.triangles, same_visits = same_load.nodes + same_load.triangles;
   const double bytes = l.nodes * by.bytes.node + l.triangles * by.bytes.triangle;
   const double in_use = lanes_in_use(counted);
+  const double of_alike = found * visits / (of_same * same_visits);
   // Arithmetic that the device could have done in the time of a visit, where rays do not part.
   const double operations = chip.operations_per_s / (of_same * same_visits);
   std::printf("%-16s %-7s %8.1f %8.1f %7.0f%% %10.0f %10.0f %8.2f %9.1f %9.0f", mesh.c_str(), kind,
-              l.nodes, l.triangles, 100 * in_use, 1e-6 * found, 1e-6 * of_same,
-              found * visits / (of_same * same_visits), operations, 1e-9 * found * bytes);
+              l.nodes, l.triangles, 100 * in_use, 1e-6 * found, 1e-6 * of_same, of_alike,
+              operations, 1e-9 * found * bytes);
   json row{{"mesh", mesh},
            {"rays", kind},
            {"count", rays.size()},
@@ -105,7 +106,7 @@ json measure(const std::string& mesh, const char* kind, const std::vector<tracer
              {"triangles_a_ray", same_load.triangles},
              {"mrays_per_s", 1e-6 * of_same},
              {"operations_a_visit", operations}}},
-           {"of_alike", found * visits / (of_same * same_visits)},
+           {"of_alike", of_alike},
            {"gbytes_per_s", 1e-9 * found * bytes},
            {"of_gathers", json::array()}};
   for (const gather_rate& g : chip.gathers) {

@@ -3,19 +3,11 @@
 // bounce rays of a picture's hits less than half of a warp is at work otherwise.
 //
 // A warp takes rays when the steps that its idle lanes have lost cost as much as taking some: as little is lost
-// where rays are alike, and end together, as where they are not. Without PTX a work-item is a warp by itself.
+// where rays are alike, and end together, as where they are not.
 #ifndef FACET_REFILL_H
 #define FACET_REFILL_H
 
 #include "trace.h"
-
-#ifndef FACET_PTX
-#define WARP_SIZE 1u
-static inline uint warp_lane(uint lid) { return 0u; }
-static inline uint lanes_below(uint lane) { return 0u; }
-static inline uint warp_ballot(uint value) { return value != 0u ? 1u : 0u; }
-static inline uint warp_from(uint value, uint from) { return value; }
-#endif
 
 // Steps that lanes may lose; of 32 to 512 fewer are better for rays that part, more for those that do not.
 #define LOST_STEPS 48u

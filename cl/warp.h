@@ -1,6 +1,6 @@
 // What the 32 work-items of a warp tell each other, and words that work-groups tell each other while
-// both run. FACET_PTX: inline PTX of sm_70 and later. Without it there are no warps, and words are
-// OpenCL's atomics.
+// both run. FACET_PTX: inline PTX of sm_70 and later. Without it a work-item is a warp by itself, and
+// words are OpenCL's atomics.
 #ifndef FACET_WARP_H
 #define FACET_WARP_H
 
@@ -98,6 +98,12 @@ static inline void share_word(__global uint* word, uint value) {
 static inline void share_fence(void) { __asm__ volatile("fence.acq_rel.gpu;" : : : "memory"); }
 
 #else
+
+#define WARP_SIZE 1u
+static inline uint warp_lane(uint lid) { return 0u; }
+static inline uint lanes_below(uint lane) { return 0u; }
+static inline uint warp_ballot(uint value) { return value != 0u ? 1u : 0u; }
+static inline uint warp_from(uint value, uint from) { return value; }
 
 static inline uint shared_word(__global uint* word) { return atomic_or((volatile __global uint*)word, 0u); }
 static inline void share_word(__global uint* word, uint value) {

@@ -20,9 +20,11 @@ std::vector<hit> device_scene::trace(std::span<const ray> rays, bool any, unsign
     stats->rays = rays.size();
     stats->group_width = s.in_packets ? s.tuned.packet_group : s.tuned.group;
     stats->group_height = 1;
-    s.describe(*stats);
   }
-  if (rays.empty()) return {};
+  if (rays.empty()) {
+    if (stats) s.describe(*stats);
+    return {};
+  }
 
   const auto start = clock::now();
   ray_batch batch(s, rays, any);

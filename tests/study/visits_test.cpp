@@ -3,8 +3,6 @@
 
 #include <doctest/doctest.h>
 
-#include <algorithm>
-
 #include "tracer/device_helper.hpp"
 #include "tracer/layout.hpp"
 #include "tracer/scenes_helper.hpp"
