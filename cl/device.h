@@ -51,6 +51,17 @@ static inline uint deposit(uint cell, uint mask) {
 #endif
 }
 
+// The same number, which the compiler takes for another: what is read by it is read anew, and need not be kept in
+// registers until then.
+#if defined(FACET_PTX) && !defined(FACET_PORTABLE)
+static inline uint as_another(uint x) {
+  __asm__ volatile("" : "+r"(x));
+  return x;
+}
+#else
+static inline uint as_another(uint x) { return x; }
+#endif
+
 // Asks for the memory from p on, which is read later: `bytes`, a literal of at most 256. No loop: compilers
 // leave it one.
 #if defined(__x86_64__) && !defined(FACET_PORTABLE)

@@ -49,6 +49,9 @@ static inline Triangles triangles_from(GEOMETRY g, uint block) {
   return t;
 }
 
+// For what is seldom asked, of triangles that may be gone from the registers.
+static inline Triangles read_again(GEOMETRY g, Triangles t) { return t; }
+
 static inline Triangles one_triangle(Triangles block, uint lane) {
   Triangles t;
   t.first = block.first + lane;
@@ -90,6 +93,7 @@ static inline Points swapped_corner(Triangles t, int corner, uint axis) {
 
 typedef struct {
   float3 corner[3];
+  uint slot;
 } Triangles;
 
 static inline void read_triangle(GEOMETRY g, uint slot, float3* p0, float3* p1, float3* p2) {
@@ -99,8 +103,11 @@ static inline void read_triangle(GEOMETRY g, uint slot, float3* p0, float3* p1, 
 static inline Triangles triangles_from(GEOMETRY g, uint slot) {
   Triangles t;
   read_triangle(g, slot, &t.corner[0], &t.corner[1], &t.corner[2]);
+  t.slot = slot;
   return t;
 }
+
+static inline Triangles read_again(GEOMETRY g, Triangles t) { return triangles_from(g, as_another(t.slot)); }
 
 static inline Points points_of(Triangles t, int corner) { return point_in_all(t.corner[corner]); }
 

@@ -105,10 +105,10 @@ static inline void cross_one(const Scene* s, PacketPart* p, const TriangleHits* 
 }
 #endif
 
-static inline void meet_one(const Scene* s, PacketPart* p, const Rays* r, Intervals outer, Triangles one,
-                            uint place, uint slot, uint mode) {
+static inline void meet_one(const Scene* s, GEOMETRY positions, PacketPart* p, const Rays* r, Intervals outer,
+                            Triangles one, uint place, uint slot, uint mode) {
   TriangleHits hits;
-  Mask met = hit_triangles(r, one, outer, p->tmin, p->t, false, mode == FACET_CROSSINGS, &hits);
+  Mask met = hit_triangles(r, positions, one, outer, p->tmin, p->t, false, mode == FACET_CROSSINGS, &hits);
   if (is_none(met)) return;
   if (mode == FACET_ANY) return answer(p, met);
 #ifndef FACET_NO_TRANSPARENCY
@@ -210,7 +210,7 @@ static inline void meet_block(const Scene* s, GEOMETRY positions, uint leaf, con
       const uint place = space->place;
 #endif
       if (rays >> FACET_LANES * k & 0xffu)
-        meet_one(s, &part[k], &space->rays[k], outer, one_triangle(triangles, at), place,
+        meet_one(s, positions, &part[k], &space->rays[k], outer, one_triangle(triangles, at), place,
                  FACET_LANES * block + at, mode);
     }
   }

@@ -101,8 +101,8 @@ static inline Mask hold_to_boxes(const Rays* r, Triangles p, Intervals outer, Re
 // Nothing overflows: x and y are below 2^62, edge functions below 2^125, z at most 2. Edge
 // functions have lost no more than 2^-147 to underflow: with |det| >= 2^-120 that is below u E / 2, and
 // with |top| >= 2^-100 that of its products is below u |t|.
-INLINED Mask hit_triangles(const Rays* r, Triangles p, Intervals outer, Real tmin, Real tmax, bool many,
-                           bool count, TriangleHits* hits) {
+INLINED Mask hit_triangles(const Rays* r, GEOMETRY positions, Triangles p, Intervals outer, Real tmin, Real tmax,
+                           bool many, bool count, TriangleHits* hits) {
   const Points a = sheared(r, p, 0), b = sheared(r, p, 1), c = sheared(r, p, 2);
   // Most of many triangles are passed by: these need no more than the signs.
   if (many) {
@@ -123,7 +123,7 @@ INLINED Mask hit_triangles(const Rays* r, Triangles p, Intervals outer, Real tmi
   const Mask is_held = met & !is_sure;
   if (!is_none(is_held)) {
     Real held = t;
-    met &= (hold_to_boxes(r, p, outer, &held) & (det != 0.0f)) | !is_held;
+    met &= (hold_to_boxes(r, read_again(positions, p), outer, &held) & (det != 0.0f)) | !is_held;
     t = is_held ? held : t;
   }
   hits->t = t;

@@ -109,7 +109,7 @@ TEST_CASE(
       "  if (space_of(&s, vec_global(rays[i].origin), vec_global(rays[i].direction), "
       "(float3)(4.0f))) {\n"
       "    const Rays r = in_all_lanes(&s);\n"
-      "    met[i] = 256u | lanes_where(hit_triangles(&r, triangles_from(block, 0u), outer, "
+      "    met[i] = 256u | lanes_where(hit_triangles(&r, block, triangles_from(block, 0u), outer, "
       "in_all(0.0f),\n"
       "                                              in_all(INFINITY), true, false, &hits));\n"
       "  }\n"

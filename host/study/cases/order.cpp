@@ -61,8 +61,12 @@ std::vector<way> ways(const lab& l, bool with_brute_force) {
   add("binned, buffer, 16x16", tree_kind::binned, geometry_kind::buffer, 16, 16, false);
   add("binned, buffer, all features", tree_kind::binned, geometry_kind::buffer, 0, 0, true);
   // As triangle.h says, that is sure to change nothing where it is left out.
-  add("binned, buffer, t always held", tree_kind::binned, geometry_kind::buffer, 0, 0, false);
-  all.back().options.edits.push_back({"triangle.h", "is_held = met & !is_sure;", "is_held = met;"});
+  for (const layout_kind layout : {layout_kind::automatic, other_layout(l)}) {
+    add("binned, buffer, t always held", tree_kind::binned, geometry_kind::buffer, 0, 0, false);
+    all.back().options.layout = layout;
+    all.back().options.edits.push_back(
+        {"triangle.h", "is_held = met & !is_sure;", "is_held = met;"});
+  }
   if (with_brute_force) {
     add("none, buffer, 64", tree_kind::none, geometry_kind::buffer, 0, 0, false);
     add("none, buffer, the other layout", tree_kind::none, geometry_kind::buffer, 0, 0, false);
