@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include "runtime/huge_pages.hpp"
 #include "runtime/memory_state.hpp"
 
 namespace facet::runtime::detail {
@@ -38,6 +39,8 @@ cl::Memory buffer_memory::create(const cl::Context& c, const device& d) const {
   // OpenCL has no empty buffers: a kernel that is given one gets room for one element.
   const std::size_t size = std::max(bytes(), element_bytes_);
   check_bytes("a buffer", size, d);
+  if (d.is_cpu())
+    if (const std::optional<cl::Buffer> b = buffer_in_huge_pages(c, size)) return *b;
   return call([&] { return cl::Buffer(c, CL_MEM_READ_WRITE, size); },
               std::to_string(size) + " bytes");
 }

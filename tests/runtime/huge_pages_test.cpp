@@ -1,0 +1,62 @@
+// Large buffers on a CPU (huge_pages.hpp): contents, alignment, and that their memory is given back.
+#include <doctest/doctest.h>
+
+#include <cstdint>
+#include <fstream>
+#include <numeric>
+#include <vector>
+
+#include "runtime/fixture_helper.hpp"
+
+using namespace facet;
+using namespace facet::runtime;
+
+namespace {
+
+constexpr std::size_t page = std::size_t(2) << 20;
+
+/// Bytes of memory that the process has in use.
+std::uint64_t resident_bytes() {
+  std::uint64_t size = 0, resident = 0;
+  std::ifstream("/proc/self/statm") >> size >> resident;
+  return resident * 4096;
+}
+
+}  // namespace
+
+TEST_CASE("buffers about the size of huge pages keep their contents") {
+  for (const std::size_t bytes : {page - 4, page, page + 4, 2 * page - 4, 2 * page + 4}) {
+    std::vector<int> data(bytes / sizeof(int));
+    std::iota(data.begin(), data.end(), 0);
+    const buffer<int> b(data.data(), data.size());
+    test::add(test::queue(), b, 7);
+    for (int& x : data) x += 7;
+    CHECK(test::contents(b) == data);
+  }
+}
+
+TEST_CASE("a large buffer on a CPU begins at a huge page") {
+#ifdef __linux__
+  if (test::device().is_cpu()) {
+    const buffer<int> b(page / sizeof(int) + 1);
+    test::set(test::queue(), b, 1);
+    const host_accessor here{b, read_only};
+    CHECK(reinterpret_cast<std::uintptr_t>(&here[0]) % page == 0);
+  }
+#endif
+}
+
+TEST_CASE("the memory of large buffers is given back") {
+  constexpr std::size_t each = 16 * page;
+  const auto use_one = [] {
+    const buffer<int> b(each / sizeof(int));
+    test::set(test::queue(), b, 1);
+  };
+  use_one();
+  test::queue().wait_and_throw();
+  const std::uint64_t before = resident_bytes();
+  for (int k = 0; k < 20; ++k) use_one();
+  test::queue().wait_and_throw();
+  // One may still be in use where the last command has only just ended.
+  CHECK(resident_bytes() < before + 2 * each);
+}
