@@ -1,4 +1,4 @@
-// Large buffers on a CPU (huge_pages.hpp): contents, alignment, and that their memory is given back.
+// Large buffers on a CPU: contents, alignment, and that their memory is given back.
 #include <doctest/doctest.h>
 
 #include <cstdint>
