@@ -123,7 +123,8 @@ void read_instances(const json_node& node, const name_table& materials, const na
     if (const auto v = entry.find("transform")) placed.world_from_object = read_transform(*v);
     s.instances.push_back(placed);
   }
-  if (n == 0) s.notes.emplace_back("the scene has no instances: nothing but its background is seen");
+  if (n == 0)
+    s.notes.emplace_back("the scene has no instances: nothing but its background is seen");
 }
 
 light read_light(const json_node& node) {
