@@ -11,7 +11,8 @@ add_library(facet_options INTERFACE)
 target_compile_features(facet_options INTERFACE cxx_std_20)
 target_compile_options(facet_options INTERFACE
   $<BUILD_INTERFACE:-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror>
-  # GCC 12 sees overlaps in "text" + std::to_string(n) that are not there (its bug 105651).
+  # GCC 12 sees overlaps in "text" + std::to_string(n) that are not there (its bug 105651). From precompiled headers
+  # it sees more, in "text" + string and push_back("text"): append and emplace_back go without.
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
   -ffp-contract=off)
 if(FACET_SANITIZE)
@@ -36,6 +37,14 @@ function(facet_reads_command_line target)
   endif()
 endfunction()
 
+# facet_precompiles(TARGET HEADERS...): the standard headers that most files include, and HEADERS, are parsed once
+# for all files of the target; that is half of the time to compile most of them.
+function(facet_precompiles target)
+  target_precompile_headers(${target} PRIVATE
+    <algorithm> <array> <atomic> <cmath> <cstddef> <cstdint> <filesystem> <functional> <map> <memory> <optional>
+    <ranges> <span> <stdexcept> <string> <string_view> <vector> ${ARGN})
+endfunction()
+
 # facet_library(NAME SOURCES ... LINKS ...): one folder of host/, included as "FOLDER/file.hpp".
 function(facet_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
@@ -45,6 +54,12 @@ function(facet_library name)
   target_include_directories(facet_${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/host> $<INSTALL_INTERFACE:include/facet>)
   target_link_libraries(facet_${name} PUBLIC facet_options ${ARG_LINKS} PRIVATE ${ARG_PRIVATE_LINKS})
+  # One for all libraries where their options are the same: under the sanitizers some are optimised.
+  if(FACET_SANITIZE OR name STREQUAL runtime)
+    facet_precompiles(facet_${name})
+  else()
+    target_precompile_headers(facet_${name} REUSE_FROM facet_runtime)
+  endif()
 endfunction()
 
 # What find_package(facet) brings: the libraries that need no picture files, their headers, and

@@ -46,7 +46,7 @@ scene scene_of_mesh(mesh_file file, const std::string& name) {
     grey.name = "default";
     grey.Ka = grey.Kd;
     s.materials.push_back(grey);
-    s.notes.push_back("the mesh brings no material: a grey one was made up");
+    s.notes.emplace_back("the mesh brings no material: a grey one was made up");
   }
   s.meshes.push_back(std::move(file.mesh));
   if (s.meshes[0].name.empty()) s.meshes[0].name = name;
@@ -55,7 +55,7 @@ scene scene_of_mesh(mesh_file file, const std::string& name) {
   s.lights.push_back(key_light_for(s.view));
   s.ambient = {0.15f, 0.15f, 0.15f};
   s.background = {0.18f, 0.2f, 0.24f};
-  s.notes.push_back(
+  s.notes.emplace_back(
       "a mesh alone: a camera that frames it (y up, from the right, slightly raised), one "
       "directional light from above its left shoulder, a little ambient light and a grey-blue "
       "background were made up");

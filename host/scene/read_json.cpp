@@ -123,7 +123,8 @@ void read_instances(const json_node& node, const name_table& materials, const na
     if (const auto v = entry.find("transform")) placed.world_from_object = read_transform(*v);
     s.instances.push_back(placed);
   }
-  if (n == 0) s.notes.push_back("the scene has no instances: nothing but its background is seen");
+  if (n == 0)
+    s.notes.emplace_back("the scene has no instances: nothing but its background is seen");
 }
 
 light read_light(const json_node& node) {
@@ -186,7 +187,7 @@ scene read_json(const std::filesystem::path& path) {
 
   if (!root.find("camera")) {
     s.view = camera_that_frames(world_box<double>(s));
-    s.notes.push_back("the scene has no camera: one was made up that frames it, y up");
+    s.notes.emplace_back("the scene has no camera: one was made up that frames it, y up");
   }
   validate(s, document.file);
   return s;

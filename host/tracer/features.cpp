@@ -63,7 +63,7 @@ std::string features::flags() const {
 std::string features::names() const {
   std::string text;
   for (const named& n : names_and_flags)
-    if (this->*n.on) text += (text.empty() ? "" : ",") + std::string(n.name);
+    if (this->*n.on) text.append(text.empty() ? "" : ",").append(n.name);
   return text.empty() ? "none" : text;
 }
 
