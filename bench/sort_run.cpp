@@ -49,7 +49,9 @@ sort_times measure_sort(runtime::queue q, const sort_plan& plan) {
 
   sort_times times;
   tracer::radix_sort<Key> sorter(q, tracer::kernel_sources(), plan.tuned);
-  times.compile_ms = sorter.compile_ms();
+  tracer::program_set programs;
+  sorter.add_programs(programs);
+  times.compile_ms = programs.build_ms();
   runtime::buffer<Key> device_keys(n);
   runtime::buffer<std::uint32_t> device_values(n);
   std::vector<key_value<Key>> pairs;

@@ -4,6 +4,10 @@
 
 #include "vec.h"
 
+// For what is large and called from several places, that a CPU's driver, which compiles while a program starts,
+// has it once.
+#define ONE_COPY __attribute__((noinline)) static
+
 typedef struct {
   float3 lo, hi;
 } Bounds;
@@ -72,6 +76,23 @@ static inline float tests_of(float weight) {
 // Twice the centre.
 static inline float3 centre2(Bounds b) { return b.lo + b.hi; }
 
+// Kernels take PRIMITIVES_ARGUMENT, and hand on PRIMITIVE(i).
+#ifdef FACET_ANY_PRIMITIVES
+// Triangles or boxes, three or two `rows` each: for kernels by single work-items, which one program has for both.
+#define PRIMITIVES_ARGUMENT __global const float4 *restrict primitives, uint rows
+#define PRIMITIVE(i) primitives, rows, i
+static inline Bounds bounds_at(__global const float4* primitives, uint rows, uint i) {
+  const size_t first = rows * (size_t)i;
+  const float3 p = primitives[first].xyz, q = primitives[first + 1].xyz, r = primitives[first + rows - 1u].xyz;
+  const bool is_box = rows == 2u;
+  Bounds b;
+  b.lo = is_box ? p : smaller3(smaller3(p, q), r);
+  b.hi = is_box ? q : larger3(larger3(p, q), r);
+  return b;
+}
+#else
+#define PRIMITIVES_ARGUMENT PRIMITIVES restrict primitives
+#define PRIMITIVE(i) primitives, i
 #ifdef FACET_OVER_BOXES
 #define PRIMITIVES __global const Box*
 static inline Bounds bounds_at(PRIMITIVES boxes, uint i) {
@@ -91,6 +112,7 @@ static inline Bounds bounds_at(PRIMITIVES corners, uint i) {
   b.hi = larger3(larger3(p, q), r);
   return b;
 }
+#endif
 #endif
 
 #endif

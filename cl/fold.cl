@@ -6,6 +6,8 @@
 // which are written from the root down. Each knows its place from the plan's counts, so nodes and leaves
 // stand in depth-first order, whoever writes them.
 //
+// Kernels that follow each other are one, told its step: a CPU's driver takes 30 ms for each, however short.
+//
 // No walk has a stack, whose size would be a guess: lists are threaded through FoldPlan.next. What subtrees
 // cost is wanted by the node above alone, soon after it is known: it stays in few records, which caches hold.
 #include "fold.h"
@@ -19,7 +21,7 @@
 static inline uint subtrees_of(__global const uint* front) { return front[1] - front[0]; }
 static inline uint subtree_root(__global const uint* front, uint i) { return front[2u + front[0] + i]; }
 
-__kernel void open_tree(__global const Node* nodes, uint root, __global uint* front) {
+static inline void open_tree(__global const Node* nodes, uint root, __global uint* front) {
   __global uint* node = front + 2;
   uint opened = 0u, all = 0u;
   node[all++] = root;
@@ -38,14 +40,12 @@ __kernel void open_tree(__global const Node* nodes, uint root, __global uint* fr
 #define NODE_RECORDS (RECORDS * (OPENED_BINARY + 1u))
 
 // The record of `node`, if its costs are at that height of the i-th subtree's stack.
-static inline __global FoldCost* record_of(__global FoldCost* costs, uint i, uint height, uint node) {
+static inline __global FoldCost* cost_at(__global FoldCost* costs, uint i, uint height, uint node) {
   return &costs[height < RECORDS ? i * RECORDS + height : NODE_RECORDS + node];
 }
 
-__kernel void plan_subtrees(__global const Node* nodes, __global const uint* front,
-                            __global FoldCost* costs, __global FoldPlan* plans) {
-  const uint i = (uint)get_global_id(0);
-  if (i >= subtrees_of(front)) return;
+static inline void plan_subtree(__global const Node* nodes, __global const uint* front, uint i,
+                                __global FoldCost* costs, __global FoldPlan* plans) {
   // Those that wait to be met, last in, first out; then those met, last met first.
   const uint root = subtree_root(front, i);
   uint waiting = root, met = FACET_NONE;
@@ -69,10 +69,10 @@ __kernel void plan_subtrees(__global const Node* nodes, __global const uint* fro
   for (; met != FACET_NONE; met = plans[met].next) {
     const uint l = nodes[met].child[0], r = nodes[met].child[1];
     Ways left = ways_of_leaf(), right = left;
-    if (!(r & FACET_LEAF_BIT)) right = ways_at(record_of(costs, i, --height, r));
-    if (!(l & FACET_LEAF_BIT)) left = ways_at(record_of(costs, i, --height, l));
+    if (!(r & FACET_LEAF_BIT)) right = ways_at(cost_at(costs, i, --height, r));
+    if (!(l & FACET_LEAF_BIT)) left = ways_at(cost_at(costs, i, --height, l));
     plan_node(nodes, met, left, right, plans,
-              met == root ? &costs[NODE_RECORDS + root] : record_of(costs, i, height, met));
+              met == root ? &costs[NODE_RECORDS + root] : cost_at(costs, i, height, met));
     ++height;
   }
 }
@@ -82,8 +82,8 @@ static inline Ways ways_of(__global const FoldCost* costs, uint child) {
 }
 
 // And how many wide nodes and leaves there are, and nodes on the longest way down.
-__kernel void plan_top(__global const Node* nodes, uint root, __global const uint* front,
-                       __global FoldCost* costs, __global FoldPlan* plans, __global uint* sizes) {
+static inline void plan_top(__global const Node* nodes, uint root, __global const uint* front,
+                            __global FoldCost* costs, __global FoldPlan* plans, __global uint* sizes) {
   for (uint i = front[0]; i > 0u; --i) {
     const uint node = front[2u + i - 1u];
     plan_node(nodes, node, ways_of(costs, nodes[node].child[0]), ways_of(costs, nodes[node].child[1]), plans,
@@ -94,11 +94,20 @@ __kernel void plan_top(__global const Node* nodes, uint root, __global const uin
   sizes[2] = costs[NODE_RECORDS + root].depth[0];
 }
 
+// First one work-item, then one for each subtree that there may be, then one.
+__kernel void plan_fold(__global const Node* nodes, uint root, __global uint* front, __global FoldCost* costs,
+                        __global FoldPlan* plans, __global uint* sizes, uint step) {
+  const uint i = (uint)get_global_id(0);
+  if (step == 0u) open_tree(nodes, root, front);
+  else if (step == 2u) plan_top(nodes, root, front, costs, plans, sizes);
+  else if (i < subtrees_of(front)) plan_subtree(nodes, front, i, costs, plans);
+}
+
 // Wide nodes and leaves count as children from first_node and first_leaf on; `wide` is of all trees, `leaves`
 // of this one: the binary tree's leaves, in order.
-__kernel void emit_top(__global const Node* nodes, uint root, __global FoldPlan* plans,
-                       __global uint* front, __global WideNode* wide, __global uint* leaves,
-                       uint first_node, uint first_leaf) {
+static inline void emit_top(__global const Node* nodes, uint root, __global FoldPlan* plans,
+                            __global uint* front, __global WideNode* wide, __global uint* leaves,
+                            uint first_node, uint first_leaf) {
   __global uint* node = front + 2;
   uint inner[WIDTH], opened = 0u, all = 0u;
   node[all++] = root;
@@ -111,11 +120,9 @@ __kernel void emit_top(__global const Node* nodes, uint root, __global FoldPlan*
   front[1] = all;
 }
 
-__kernel void emit_subtrees(__global const Node* nodes, __global FoldPlan* plans,
-                            __global const uint* front, __global WideNode* wide, __global uint* leaves,
-                            uint first_node, uint first_leaf) {
-  if (get_global_id(0) >= subtrees_of(front)) return;
-  uint waiting = subtree_root(front, (uint)get_global_id(0));
+static inline void emit_subtree(__global const Node* nodes, uint root, __global FoldPlan* plans,
+                                __global WideNode* wide, __global uint* leaves, uint first_node, uint first_leaf) {
+  uint waiting = root;
   plans[waiting].next = FACET_NONE;
   while (waiting != FACET_NONE) {
     uint inner[WIDTH];
@@ -128,4 +135,15 @@ __kernel void emit_subtrees(__global const Node* nodes, __global FoldPlan* plans
       waiting = inner[k - 1u];
     }
   }
+}
+
+// First one work-item, then one for each subtree that there may be.
+__kernel void emit_fold(__global const Node* nodes, uint root, __global FoldPlan* plans, __global uint* front,
+                        __global WideNode* wide, __global uint* leaves, uint first_node, uint first_leaf,
+                        uint step) {
+  const uint i = (uint)get_global_id(0);
+  if (step == 0u)
+    emit_top(nodes, root, plans, front, wide, leaves, first_node, first_leaf);
+  else if (i < subtrees_of(front))
+    emit_subtree(nodes, subtree_root(front, i), plans, wide, leaves, first_node, first_leaf);
 }

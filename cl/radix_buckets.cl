@@ -44,7 +44,7 @@ __kernel void count_buckets(__global const key_type* keys, __global uint* counts
 }
 
 __kernel void scan_buckets(__global uint* counts, uint tiles, __global const BucketPlan* plan) {
-  if (plan->is_used != 0u) scan_tiles(counts, tiles);
+  if (plan->is_used != 0u) scan_digits(counts, tiles);
 }
 
 // From keys and values to records. If `is_first_order` a value is its key's index, and `values` is not
@@ -68,15 +68,7 @@ __kernel void scatter_buckets(__global const key_type* keys, __global const uint
   end_runs(&runs, lines, out);
 }
 
-static inline void write_apart(__global const record_type* in, uint begin, uint end, __global key_type* keys,
-                               __global uint* values) {
-  for (uint i = begin; i < end; ++i, ++in) {
-    keys[i] = key_of(*in);
-    values[i] = value_of(*in);
-  }
-}
-
-// The same, past the caches where it can.
+// As write_apart, past the caches where it can.
 static inline void write_far_apart(__global const record_type* in, uint begin, uint end,
                                    __global key_type* keys, __global uint* values) {
   const uint first = min((begin + APART_LINE - 1u) / APART_LINE * APART_LINE, end);

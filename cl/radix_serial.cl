@@ -29,7 +29,7 @@ __kernel void count_records(__global const record_type* records, __global uint* 
 }
 
 __kernel void scan_counts(__global uint* counts, uint tiles, __global const BucketPlan* plan) {
-  if (plan->is_used == 0u) scan_tiles(counts, tiles);
+  if (plan->is_used == 0u) scan_digits(counts, tiles);
 }
 
 // From keys and values to records. If `is_first_order` a value is its key's index, and `values` is not

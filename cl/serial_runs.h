@@ -21,7 +21,7 @@ static inline void store_counts(const uint* own, __global uint* counts) {
 }
 
 // Counts become the place of each tile's first key with each digit. One work-item.
-static inline void scan_tiles(__global uint* counts, uint tiles) {
+static inline void scan_digits(__global uint* counts, uint tiles) {
   uint place[DIGITS];
   for (uint d = 0u; d < DIGITS; ++d) place[d] = 0u;
   for (uint t = 0u; t < tiles; ++t)

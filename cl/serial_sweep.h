@@ -13,7 +13,7 @@ typedef struct {
   Packed box[32];
   float centre[3][32];  // doubled
   uint tie[32];
-  float weight[32];
+  uint weight[32];
 } Entries;
 
 // Indices of entries: by each axis' centres, and by ties.
@@ -26,7 +26,7 @@ static inline void put_entry(Entries* e, uint i, Bounds b, uint tie, uint weight
   e->box[i] = packed(b);
   e->centre[0][i] = c.x, e->centre[1][i] = c.y, e->centre[2][i] = c.z;
   e->tie[i] = tie;
-  e->weight[i] = (float)weight;
+  e->weight[i] = weight;
 }
 
 static inline void order_by_ties(const Entries* e, uint count, Orders* o) {
@@ -56,7 +56,19 @@ typedef struct {
   Packed left_box, right_box;
 } SerialSplit;
 
-static inline SerialSplit best_serial_split(const Entries* e, const Orders* o, uint begin, uint end) {
+// When a subtree becomes a leaf (bounds.h: LEAF_SURE, LEAF_MOST, and of LEAF_BLOCK the bit): known when it is built, so
+// that one program has trees of any rule.
+typedef struct {
+  uint sure, most, block_bit;
+} LeafRule;
+
+// As tests_of (bounds.h), of integers: PoCL makes a call of ceil.
+static inline float rounded_tests(uint weight, uint block_bit) {
+  return (float)(int)((weight + (1u << block_bit) - 1u) >> block_bit);
+}
+
+static inline SerialSplit best_serial_split(const Entries* e, const Orders* o, uint begin, uint end,
+                                            uint block_bit) {
   SerialSplit best;
   best.cost = INFINITY;
   best.axis = FACET_NONE;
@@ -65,9 +77,9 @@ static inline SerialSplit best_serial_split(const Entries* e, const Orders* o, u
   for (uint axis = 0u; axis < 3u; ++axis) {
     const uchar* by = o->by[axis];
     Packed right[32];
-    float right_weight[32];
+    uint right_weight[32];
     Packed box = no_packed();
-    float weight = 0.0f;
+    uint weight = 0u;
     for (uint i = end - 1u; i > begin; --i) {
       box = joined_packed(e->box[by[i]], box);
       weight += e->weight[by[i]];
@@ -75,11 +87,13 @@ static inline SerialSplit best_serial_split(const Entries* e, const Orders* o, u
       right_weight[i - begin] = weight;
     }
     box = no_packed();
-    weight = 0.0f;
+    weight = 0u;
     for (uint i = begin + 1u; i < end; ++i) {
       box = joined_packed(e->box[by[i - 1u]], box);
       weight += e->weight[by[i - 1u]];
-      const float cost = packed_cost(box, tests_of(weight), right[i - begin], tests_of(right_weight[i - begin]));
+      const float cost =
+          packed_cost(box, rounded_tests(weight, block_bit), right[i - begin],
+                      rounded_tests(right_weight[i - begin], block_bit));
       if (cost < best.cost || best.axis == FACET_NONE) {
         best.cost = cost;
         best.axis = axis;
@@ -115,11 +129,12 @@ typedef struct {
   Packed box;
 } Segment;
 
-// The tree over entries 0 .. count - 1, its nodes numbered from `base` on; leaf i (in order) is leaves[i]: begin, end in orders.by[3], and its link and depth. Returns the nodes; *leaf_count.
-static inline uint serial_sweep(const Entries* e, uint count, uint leaf_sure, uint leaf_most, uint base,
-                                Node* nodes, Orders* orders, Segment* leaves, uint* leaf_count) {
+// The tree over entries 0 .. count - 1, its nodes numbered from `base` on; leaf i (in order) is leaves[i]: begin, end
+// in orders.by[3], and its link and depth. Returns the nodes; *leaf_count.
+ONE_COPY uint serial_sweep(const Entries* e, uint count, LeafRule rule, uint base, Node* nodes, Orders* orders,
+                           Segment* leaves, uint* leaf_count) {
   order_by_ties(e, count, orders);
-  for (uint axis = 0u; axis < 3u && count > leaf_sure; ++axis) order_by_axis(e, count, axis, orders);
+  for (uint axis = 0u; axis < 3u && count > rule.sure; ++axis) order_by_axis(e, count, axis, orders);
   Segment stack[32];
   uint top = 0u, made = 0u, found = 0u;
   stack[top].box = e->box[0];
@@ -129,11 +144,11 @@ static inline uint serial_sweep(const Entries* e, uint count, uint leaf_sure, ui
   while (top > 0u) {
     const Segment s = stack[--top];
     const uint size = s.end - s.begin;
-    bool is_leaf = size <= leaf_sure;
+    bool is_leaf = size <= rule.sure;
     SerialSplit split;
     if (!is_leaf) {
-      split = best_serial_split(e, orders, s.begin, s.end);
-      if (size <= leaf_most)
+      split = best_serial_split(e, orders, s.begin, s.end, rule.block_bit);
+      if (size <= rule.most)
         is_leaf = !(packed_area(s.box) * (float)(size - 1u) > split.cost);
     }
     if (is_leaf) {

@@ -4,9 +4,11 @@
 #include "serial_sweep.h"
 
 // As build_bottoms of cl/bottom.cl, `each` subtrees a work-item.
-__kernel void build_bottoms(PRIMITIVES restrict primitives, __global const uint* starts, __global uint* order,
+__kernel void build_bottoms(PRIMITIVES_ARGUMENT, __global const uint* starts, __global uint* order,
                             __global Node* nodes, __global Item* items, __global uint* refs,
-                            __global uint* counter, uint room, uint subtrees, uint each) {
+                            __global uint* counter, uint room, uint subtrees, uint each,
+                            uint leaf_sure, uint leaf_most, uint leaf_block_bit) {
+  const LeafRule rule = {leaf_sure, leaf_most, leaf_block_bit};
   const uint begin = (uint)get_global_id(0) * each, end = min(begin + each, subtrees);
   for (uint k = begin; k < end; ++k) {
     const uint first = starts[k], count = starts[k + 1u] - first;
@@ -15,14 +17,14 @@ __kernel void build_bottoms(PRIMITIVES restrict primitives, __global const uint*
     Packed all = no_packed();
     for (uint i = 0u; i < count; ++i) {
       primitive[i] = order[first + i];
-      put_entry(&e, i, bounds_at(primitives, primitive[i]), i, 1u);
+      put_entry(&e, i, bounds_at(PRIMITIVE(primitive[i])), i, 1u);
       all = joined_packed(e.box[i], all);
     }
     Node made[31];
     Orders orders;
     Segment leaves[32];
     uint leaf_count, height = 0u;
-    const uint made_count = serial_sweep(&e, count, LEAF_SURE, LEAF_MOST, 0u, made, &orders, leaves, &leaf_count);
+    const uint made_count = serial_sweep(&e, count, rule, 0u, made, &orders, leaves, &leaf_count);
     // What does not fit is counted all the same: the host makes room and starts again.
     const uint base = made_count == 0u ? 0u : atomic_add((volatile __global uint*)counter, made_count);
     for (uint i = 0u; i < made_count; ++i)
@@ -141,7 +143,8 @@ static inline uint finish_range(__global const Item* items, const Waiting* w, __
   Orders orders;
   Segment leaves[32];
   uint leaf_count, deepest = 0u;
-  const uint made_count = serial_sweep(&e, count, 1u, 1u, w->node, made, &orders, leaves, &leaf_count);
+  const LeafRule one_each = {1u, 1u, 0u};
+  const uint made_count = serial_sweep(&e, count, one_each, w->node, made, &orders, leaves, &leaf_count);
   for (uint i = 0u; i < leaf_count; ++i) {
     const uint at = orders.by[3][leaves[i].begin];
     made[leaves[i].link >> 1].child[leaves[i].link & 1u] = refs[e.tie[at]];

@@ -59,4 +59,12 @@ static inline void write_line_apart(const record_type* line, __global key_type* 
 static inline key_type lowest_bits(uint bits) { return ~(key_type)0 >> (KEY_BITS - bits); }
 static inline uint bit_length(key_type k) { return KEY_BITS - (uint)clz(k); }
 
+static inline void write_apart(__global const record_type* in, uint begin, uint end, __global key_type* keys,
+                               __global uint* values) {
+  for (uint i = begin; i < end; ++i, ++in) {
+    keys[i] = key_of(*in);
+    values[i] = value_of(*in);
+  }
+}
+
 #endif

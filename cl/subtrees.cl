@@ -1,9 +1,8 @@
 // Cuts the sorted places into the largest subtrees of the radix tree that have at most MOST places, and lists
 // where they begin, in order.
+#include "begun_subtree.h"
 #include "group_sum.h"
-#include "radix_tree.h"
 
-#define MOST FACET_SWEEP_MOST
 // Places of a work-item that marks them; a multiple of 32 / its group.
 #ifndef EACH
 #define EACH 1024u
@@ -39,25 +38,6 @@ __kernel void mark_subtrees(__global const uint* codes, __global uint* marks, __
   uint sum = 0u;
   for (uint k = 0u; k < words; ++k) sum += popcount(bits[k]);
   counts[at] = sum;
-}
-
-// How many places the subtree has that begins at a place, 0 if none does; common as above.
-static inline uint begun_subtree(const uchar* common) {
-  uint size = 1u;  // the first places from here on are a subtree
-  for (;;) {
-    const uint before = common[0], after = common[size];
-    if (before == 0u && after == 0u) return size;
-    // Its parent has all neighbours that have as much in common.
-    if (before >= after) {
-      uint more = 1u;
-      while (size + more <= MOST && common[-(int)more] >= before) ++more;
-      return size + more > MOST ? size : 0u;
-    }
-    uint parent = size + 1u;
-    while (parent <= MOST && common[parent] >= after) ++parent;
-    if (parent > MOST) return size;
-    size = parent;
-  }
 }
 
 // The same for a CPU: a work-item takes a tile of EACH places alone, and goes from one subtree to the next.

@@ -67,6 +67,12 @@ void prepare_to_write(const fs::path& path) {
 #endif
 }
 
+void prepare_at_once() {
+#ifdef FACET_OPENIMAGEIO
+  load_picture_files_now();
+#endif
+}
+
 void write_picture_file(const fs::path& path, const picture& p, image::transfer curve) {
   image::refuse_nan(p);
   if (extension_of(path) == ".npy") return image::write_npy(path, p);

@@ -12,8 +12,10 @@ namespace facet::cli {
 /// Before the work: is the extension known (usage_error), can the file be made (output_error)?
 void check_picture_output(const std::filesystem::path& path);
 
-/// Prepares what write_picture_file will need of other libraries while other work goes on.
+/// Prepares what write_picture_file will need of other libraries while other work goes on; at once
+/// when the device's kernels run.
 void prepare_to_write(const std::filesystem::path& path);
+void prepare_at_once();
 
 /// Throws image::nan_error or image::output_error; then the file is as it was before.
 void write_picture_file(const std::filesystem::path& path, const picture& p, image::transfer curve);

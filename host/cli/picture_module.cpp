@@ -2,7 +2,9 @@
 
 #include <dlfcn.h>
 
+#include <chrono>
 #include <future>
+#include <semaphore>
 #include <string>
 
 namespace facet::cli {
@@ -33,8 +35,22 @@ const image::file_functions* load() {
   return static_cast<const image::file_functions*>(found);
 }
 
+/// Who loads a library waits for whoever does: a driver's kernels that come from its cache would
+/// wait for the module. If none was loaded for so long, the driver compiles, and has the time.
+constexpr std::chrono::milliseconds patience{250};
+
+std::counting_semaphore<>& wanted() {
+  static std::counting_semaphore<> is_wanted{0};
+  return is_wanted;
+}
+
 std::shared_future<const image::file_functions*>& loading(std::launch how) {
-  static std::shared_future<const image::file_functions*> module = std::async(how, load).share();
+  std::counting_semaphore<>& is_wanted = wanted();  // first, so that it outlives the thread
+  static std::shared_future<const image::file_functions*> module =
+      std::async(how, [&is_wanted] {
+        static_cast<void>(is_wanted.try_acquire_for(patience));
+        return load();
+      }).share();
   return module;
 }
 
@@ -42,8 +58,13 @@ std::shared_future<const image::file_functions*>& loading(std::launch how) {
 
 void check_picture_module() { module_file(); }
 
-const image::file_functions& picture_files() { return *loading(std::launch::deferred).get(); }
+const image::file_functions& picture_files() {
+  load_picture_files_now();
+  return *loading(std::launch::deferred).get();
+}
 
 void load_picture_files_soon() { loading(std::launch::async); }
+
+void load_picture_files_now() { wanted().release(); }
 
 }  // namespace facet::cli

@@ -18,7 +18,9 @@ void check_picture_module();
 /// Loads the module unless that was done. Throws module_error.
 const image::file_functions& picture_files();
 
-/// Begins to load it, on another thread: picture_files() waits for that.
+/// Loads it on another thread, for which picture_files() waits: after a while, or once the other
+/// function says that the driver has loaded what it takes.
 void load_picture_files_soon();
+void load_picture_files_now();
 
 }  // namespace facet::cli

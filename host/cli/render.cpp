@@ -96,7 +96,10 @@ picture render_on_device(const arguments& o, const scene& s, picture_shape p,
   try {
     return on_device.render(
         p.width, p.height, p.max_depth, &stats,
-        [&](std::uint64_t done, std::uint64_t total) { bar.update(done, total); },
+        [&](std::uint64_t done, std::uint64_t total) {
+          prepare_at_once();
+          bar.update(done, total);
+        },
         &interrupt_flag());
   } catch (const tracer::cancelled& c) {
     interrupted_at(o, c.done, c.total);

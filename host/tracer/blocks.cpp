@@ -8,7 +8,7 @@ namespace facet::tracer {
 block_maker::block_maker(runtime::queue q, const runtime::source_tree& kernels, const tuning& t)
     : queue_(q),
       run_(t.block_run),
-      program_(compiled(q, kernels, "blocks.cl", t.flags())),
+      program_(compiled(q, kernels, t.serial_trees ? serial_file : "blocks.cl", t.flags())),
       make_blocks_(program_.get_kernel("make_blocks")),
       block_normals_(program_.get_kernel("block_normals")) {}
 

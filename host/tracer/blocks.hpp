@@ -6,6 +6,7 @@
 #include "runtime/runtime.hpp"
 #include "tracer/layout.hpp"
 #include "tracer/pack.hpp"
+#include "tracer/program_set.hpp"
 #include "tracer/tuning.hpp"
 
 namespace facet::tracer {
@@ -31,7 +32,7 @@ class block_maker {
   void normals(const block_list& list, const runtime::buffer<texel>& normals,
                runtime::buffer<texel>& to, std::uint32_t first_block);
 
-  double compile_ms() const { return program_.build_ms(); }
+  void add_programs(program_set& to) const { to.add(program_); }
 
  private:
   runtime::nd_range<1> range(std::uint32_t blocks) const;

@@ -1,5 +1,7 @@
 #include "tracer/bottoms.hpp"
 
+#include <bit>
+
 #include "tracer/kernels.hpp"
 #include "tracer/launch.hpp"
 #include "tracer/morton.hpp"
@@ -24,11 +26,13 @@ template <class Primitive>
 bottoms<Primitive>::bottoms(const runtime::queue& q, const runtime::source_tree& kernels,
                             const tuning& t, leaf_rule leaves, bool in_order)
     : queue_(q),
+      leaves_(leaves),
       is_serial_(t.serial_trees),
       pieces_(t.sort.tiles),
-      program_(compiled(q, kernels, t.serial_trees ? "serial_tree.cl" : "bottom.cl",
-                        t.flags() + primitive_options(std::is_same_v<Primitive, Box>) +
-                            leaf_options(leaves, in_order))),
+      program_(t.serial_trees ? compiled(q, kernels, serial_file, t.flags())
+                              : compiled(q, kernels, "bottom.cl",
+                                         t.flags() + primitive_options<Primitive>() +
+                                             leaf_options(leaves, in_order))),
       build_(program_.get_kernel("build_bottoms")) {}
 
 template <class Primitive>
@@ -52,8 +56,10 @@ std::uint32_t bottoms<Primitive>::build(runtime::buffer<Primitive>& primitives,
                      const auto room = std::uint32_t(parts.nodes.size());
                      if (is_serial_) {
                        const std::uint32_t each = (subtrees + pieces_ - 1) / pieces_;
-                       h.set_args(from, at, places, nodes, items, refs, counter, room, subtrees,
-                                  each);
+                       const auto block_bit = std::uint32_t(std::countr_zero(leaves_.block));
+                       h.set_args(from, primitive_rows<Primitive>, at, places, nodes, items, refs,
+                                  counter, room, subtrees, each, leaves_.sure, leaves_.most,
+                                  block_bit);
                        h.parallel_for(in_groups((subtrees + each - 1) / each, 1), build_);
                      } else {
                        const runtime::local_accessor<std::uint32_t> pool(FACET_SWEEP_WORDS, h);

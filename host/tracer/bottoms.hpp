@@ -9,6 +9,7 @@
 #include "tracer/leaf_order.hpp"
 #include "tracer/leaf_rule.hpp"
 #include "tracer/pack.hpp"
+#include "tracer/program_set.hpp"
 #include "tracer/step.hpp"
 #include "tracer/tuning.hpp"
 
@@ -45,10 +46,11 @@ class bottoms {
                       std::uint32_t first_node, const leaf_triangles* sorted,
                       std::vector<step>& steps);
 
-  double compile_ms() const { return program_.build_ms(); }
+  void add_programs(program_set& to) const { to.add(program_); }
 
  private:
   runtime::queue queue_;
+  leaf_rule leaves_;
   bool is_serial_;
   std::uint32_t pieces_;
   runtime::buffer<std::uint32_t> counter_{1};

@@ -28,8 +28,7 @@ bucket_sort<Key>::bucket_sort(runtime::queue q, const runtime::source_tree& kern
                               const tuning& t)
     : queue_(q),
       tuning_(t.sort),
-      program_(compiled(q, kernels, "radix_buckets.cl",
-                        t.flags() + " -DKEY_BITS=" + std::to_string(8 * sizeof(Key)))),
+      program_(compiled(q, kernels, order_file, t.flags() + key_options<Key>())),
       choose_(program_.get_kernel("plan_buckets")),
       count_(program_.get_kernel("count_buckets")),
       scan_(program_.get_kernel("scan_buckets")),

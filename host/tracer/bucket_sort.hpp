@@ -1,8 +1,9 @@
 // The sort by buckets that fit a core's caches, for devices whose work-items are a CPU's threads:
-// cl/radix_buckets.cl.
+// cl/radix_buckets.cl, with all that puts primitives in order in one program (cl/serial_order.cl).
 #pragma once
 
 #include <array>
+#include <string>
 
 #include "cl/build_layout.h"
 #include "tracer/sort_way.hpp"
@@ -26,6 +27,12 @@ struct serial_scratch {
   std::array<runtime::buffer<sort_record<Key>>, 2> records{runtime::buffer<sort_record<Key>>(0),
                                                            runtime::buffer<sort_record<Key>>(0)};
 };
+
+/// The program's options. Trees are built by 32-bit keys, and share it.
+template <class Key>
+std::string key_options() {
+  return sizeof(Key) == 4 ? "" : " -DKEY_BITS=64";
+}
 
 /// How keys are shared out among work-items, in order.
 struct sort_tiles {
@@ -52,7 +59,7 @@ class bucket_sort {
   /// Whether so many keys are sorted however they are.
   bool sorts_any(std::uint32_t count) const { return count <= tuning_.bucket_most; }
 
-  double compile_ms() const { return program_.build_ms(); }
+  void add_programs(program_set& to) const { to.add(program_); }
   static std::uint64_t scratch_bytes(std::uint32_t count, const sort_tuning& t);
 
  private:

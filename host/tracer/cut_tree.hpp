@@ -7,6 +7,7 @@
 #include "tracer/binary_tree.hpp"
 #include "tracer/leaf_rule.hpp"
 #include "tracer/node_tree.hpp"
+#include "tracer/program_set.hpp"
 #include "tracer/tuning.hpp"
 
 namespace facet::tracer {
@@ -24,7 +25,7 @@ class tree_cutter {
     return primitives * (sizeof(Node) + sizeof(std::uint32_t));
   }
 
-  double compile_ms() const { return program_.build_ms(); }
+  void add_programs(program_set& to) const { to.add(program_); }
 
  private:
   runtime::queue queue_;

@@ -13,6 +13,8 @@ constexpr std::uint32_t opened_wide = 73, wide_subtrees = 7 * opened_wide + 1;
 constexpr std::uint32_t front_size = 2 + opened_wide + wide_subtrees;
 static_assert(front_size >= 2 + opened_binary + binary_subtrees);
 
+constexpr std::uint32_t plan_steps = 3, emit_steps = 2;
+
 // cl/fold.cl: RECORDS and NODE_RECORDS.
 constexpr std::uint32_t stack_records = 64 * binary_subtrees;
 
@@ -24,41 +26,25 @@ std::uint64_t folder::scratch_bytes(std::uint64_t nodes) {
 
 folder::folder(runtime::queue q, const runtime::source_tree& kernels, const tuning& t)
     : queue_(q),
-      program_(compiled(q, kernels, "fold.cl", t.flags())),
-      open_tree_(program_.get_kernel("open_tree")),
-      plan_subtrees_(program_.get_kernel("plan_subtrees")),
-      plan_top_(program_.get_kernel("plan_top")),
-      emit_top_(program_.get_kernel("emit_top")),
-      emit_subtrees_(program_.get_kernel("emit_subtrees")) {}
+      program_(compiled(q, kernels, t.serial_trees ? serial_file : "fold.cl", t.flags())),
+      plan_(program_.get_kernel("plan_fold")),
+      emit_(program_.get_kernel("emit_fold")) {}
 
 fold_plan folder::plan(const node_tree& tree) {
   fold_plan p{0, 1, 0, runtime::buffer<FoldPlan>(tree.node_count)};
   if (tree.root & FACET_LEAF_BIT) return p;
   runtime::buffer<FoldCost> costs(stack_records + std::size_t(tree.node_count));
   runtime::buffer<std::uint32_t> front(front_size), sizes(3);
-  queue_.submit([&](runtime::handler& h) {
-    const runtime::accessor nodes{tree.nodes, h, runtime::read_only};
-    const runtime::accessor out{front, h, runtime::write_only};
-    h.set_args(nodes, tree.root, out);
-    h.single_task(open_tree_);
-  });
-  queue_.submit([&](runtime::handler& h) {
-    const runtime::accessor nodes{tree.nodes, h, runtime::read_only};
-    const runtime::accessor in{front, h, runtime::read_only};
-    const runtime::accessor cost{costs, h, runtime::read_write};
-    const runtime::accessor plans{p.by_node, h, runtime::read_write};
-    h.set_args(nodes, in, cost, plans);
-    h.parallel_for(padded(binary_subtrees, 1), plan_subtrees_);
-  });
-  queue_.submit([&](runtime::handler& h) {
-    const runtime::accessor nodes{tree.nodes, h, runtime::read_only};
-    const runtime::accessor in{front, h, runtime::read_only};
-    const runtime::accessor cost{costs, h, runtime::read_write};
-    const runtime::accessor plans{p.by_node, h, runtime::read_write};
-    const runtime::accessor out{sizes, h, runtime::write_only};
-    h.set_args(nodes, tree.root, in, cost, plans, out);
-    h.single_task(plan_top_);
-  });
+  for (std::uint32_t step = 0; step < plan_steps; ++step)
+    queue_.submit([&](runtime::handler& h) {
+      const runtime::accessor nodes{tree.nodes, h, runtime::read_only};
+      const runtime::accessor list{front, h, runtime::read_write};
+      const runtime::accessor cost{costs, h, runtime::read_write};
+      const runtime::accessor plans{p.by_node, h, runtime::read_write};
+      const runtime::accessor out{sizes, h, runtime::write_only};
+      h.set_args(nodes, tree.root, list, cost, plans, out, step);
+      h.parallel_for(in_groups(step == 1 ? binary_subtrees : 1, 1), plan_);
+    });
   const runtime::host_accessor read{sizes, runtime::read_only};
   p.nodes = read[0], p.leaves = read[1], p.depth = read[2];
   return p;
@@ -75,24 +61,16 @@ std::uint32_t folder::emit(const node_tree& tree, fold_plan& plan, runtime::buff
     return FACET_LEAF(first_leaf, 1u);
   }
   runtime::buffer<std::uint32_t> front(front_size);
-  queue_.submit([&](runtime::handler& h) {
-    const runtime::accessor nodes{tree.nodes, h, runtime::read_only};
-    const runtime::accessor plans{plan.by_node, h, runtime::read_write};
-    const runtime::accessor list{front, h, runtime::write_only};
-    const runtime::accessor to{wide, h, runtime::read_write};
-    const runtime::accessor leaf{leaves, h, runtime::read_write};
-    h.set_args(nodes, tree.root, plans, list, to, leaf, first_node, first_leaf);
-    h.single_task(emit_top_);
-  });
-  queue_.submit([&](runtime::handler& h) {
-    const runtime::accessor nodes{tree.nodes, h, runtime::read_only};
-    const runtime::accessor plans{plan.by_node, h, runtime::read_write};
-    const runtime::accessor list{front, h, runtime::read_only};
-    const runtime::accessor to{wide, h, runtime::read_write};
-    const runtime::accessor leaf{leaves, h, runtime::read_write};
-    h.set_args(nodes, plans, list, to, leaf, first_node, first_leaf);
-    h.parallel_for(padded(wide_subtrees, 1), emit_subtrees_);
-  });
+  for (std::uint32_t step = 0; step < emit_steps; ++step)
+    queue_.submit([&](runtime::handler& h) {
+      const runtime::accessor nodes{tree.nodes, h, runtime::read_only};
+      const runtime::accessor plans{plan.by_node, h, runtime::read_write};
+      const runtime::accessor list{front, h, runtime::read_write};
+      const runtime::accessor to{wide, h, runtime::read_write};
+      const runtime::accessor leaf{leaves, h, runtime::read_write};
+      h.set_args(nodes, tree.root, plans, list, to, leaf, first_node, first_leaf, step);
+      h.parallel_for(in_groups(step == 1 ? wide_subtrees : 1, 1), emit_);
+    });
   return first_node;
 }
 

@@ -5,6 +5,7 @@
 
 #include "runtime/runtime.hpp"
 #include "tracer/node_tree.hpp"
+#include "tracer/program_set.hpp"
 #include "tracer/tuning.hpp"
 
 namespace facet::tracer {
@@ -36,12 +37,12 @@ class folder {
   static std::uint64_t scratch_bytes(std::uint64_t nodes);
   static std::uint64_t kept_bytes(std::uint64_t nodes) { return nodes * sizeof(FoldPlan); }
 
-  double compile_ms() const { return program_.build_ms(); }
+  void add_programs(program_set& to) const { to.add(program_); }
 
  private:
   runtime::queue queue_;
   runtime::program program_;
-  runtime::kernel open_tree_, plan_subtrees_, plan_top_, emit_top_, emit_subtrees_;
+  runtime::kernel plan_, emit_;
 };
 
 }  // namespace facet::tracer

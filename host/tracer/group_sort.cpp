@@ -80,8 +80,9 @@ group_sort<Key>::group_sort(runtime::queue q, const runtime::source_tree& kernel
 }
 
 template <class Key>
-double group_sort<Key>::compile_ms() const {
-  return program_.build_ms() + (counting_ ? counting_->build_ms() : 0);
+void group_sort<Key>::add_programs(program_set& to) const {
+  to.add(program_);
+  if (counting_) to.add(*counting_);
 }
 
 template <class Key>

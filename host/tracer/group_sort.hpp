@@ -15,7 +15,7 @@ class group_sort : public sort_way<Key> {
   group_sort(runtime::queue q, const runtime::source_tree& kernels, const tuning& t);
 
   std::vector<step> sort(const sort_request<Key>& r) override;
-  double compile_ms() const override;
+  void add_programs(program_set& to) const override;
 
   static std::uint64_t scratch_bytes(std::uint32_t count, const sort_tuning& t);
   /// Keys that a group sorts at a time.

@@ -19,6 +19,11 @@ const runtime::source_tree& kernel_sources();
 runtime::program compiled(const runtime::queue& q, const runtime::source_tree& kernels,
                           const std::string& main_file, const std::string& options);
 
+/// What single work-items build trees and the wide layout by, and what they put many primitives in
+/// order by before.
+inline constexpr const char* serial_file = "serial.cl";
+inline constexpr const char* order_file = "serial_order.cl";
+
 /// The options that trace.cl and render.cl are compiled with for this geometry.
 /// ray_stack: entries of the stack of pending rays, at least the depth of what is rendered.
 std::string traversal_options(const features& f, std::uint32_t nesting, tree_kind tree,

@@ -6,6 +6,7 @@
 #include "runtime/runtime.hpp"
 #include "tracer/layout.hpp"
 #include "tracer/pack.hpp"
+#include "tracer/program_set.hpp"
 #include "tracer/tuning.hpp"
 
 namespace facet::tracer {
@@ -29,7 +30,7 @@ class leaf_order {
   void normals(runtime::buffer<std::uint32_t>& order, runtime::buffer<texel>& normals,
                runtime::buffer<texel>& normals_out, std::uint32_t count, std::uint32_t slot);
 
-  double compile_ms() const { return program_.build_ms(); }
+  void add_programs(program_set& to) const { to.add(program_); }
 
  private:
   runtime::queue queue_;

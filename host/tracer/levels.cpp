@@ -28,7 +28,7 @@ levels<Primitive>::levels(const runtime::queue& q, const runtime::source_tree& k
       group_(t.group),
       pieces_(t.sort.tiles),
       program_(compiled(q, kernels, t.serial_trees ? "serial_levels.cl" : "levels.cl",
-                        t.flags() + primitive_options(std::is_same_v<Primitive, Box>) +
+                        t.flags() + primitive_options<Primitive>() +
                             leaf_options(leaves, in_order) + (t.warps ? " -DFACET_PTX" : ""))),
       subtrees_(program_.get_kernel("merge_subtrees")),
       items_(program_.get_kernel(t.serial_trees ? "merge_runs" : "merge_items")),

@@ -8,6 +8,7 @@
 #include "tracer/bottoms.hpp"
 #include "tracer/leaf_order.hpp"
 #include "tracer/leaf_rule.hpp"
+#include "tracer/program_set.hpp"
 #include "tracer/step.hpp"
 #include "tracer/tuning.hpp"
 
@@ -38,7 +39,7 @@ class levels {
   built_root build(runtime::buffer<Primitive>& primitives, const sorted_places& places,
                    tree_parts& parts, const leaf_triangles* sorted, std::vector<step>& steps);
 
-  double compile_ms() const { return program_.build_ms(); }
+  void add_programs(program_set& to) const { to.add(program_); }
 
  private:
   void merge_subtrees(runtime::buffer<Primitive>& primitives, const sorted_places& places,

@@ -13,17 +13,17 @@ constexpr std::uint32_t bounds_words = 6;  // of local memory a work-item (cl/mo
 
 }  // namespace
 
-std::string primitive_options(bool over_boxes) { return over_boxes ? " -DFACET_OVER_BOXES" : ""; }
-
 template <class Primitive>
 morton<Primitive>::morton(const runtime::queue& q, const runtime::source_tree& kernels,
                           const tuning& t)
     : queue_(q),
+      is_alone_(t.orders_alone()),
       group_(t.bounds_group),
       most_groups_(t.bounds_groups),
       partial_(most_groups_),
-      program_(compiled(q, kernels, "morton.cl",
-                        t.flags() + primitive_options(std::is_same_v<Primitive, Box>))),
+      program_(is_alone_
+                   ? compiled(q, kernels, order_file, t.flags())
+                   : compiled(q, kernels, "morton.cl", t.flags() + primitive_options<Primitive>())),
       partial_bounds_(program_.get_kernel("partial_bounds")),
       total_bounds_(program_.get_kernel("total_bounds")),
       codes_(program_.get_kernel("morton_codes")) {}
@@ -38,7 +38,10 @@ void morton<Primitive>::codes(runtime::buffer<Primitive>& primitives, runtime::b
                      const runtime::accessor in{primitives, h, runtime::read_only};
                      const runtime::accessor out{partial_, h, runtime::write_only};
                      const runtime::local_accessor<float> pool(bounds_words * group_, h);
-                     h.set_args(in, out, count, share, pool);
+                     if (is_alone_)
+                       h.set_args(in, primitive_rows<Primitive>, out, count, share, pool);
+                     else
+                       h.set_args(in, out, count, share, pool);
                      h.parallel_for(in_groups(groups, group_), partial_bounds_);
                    })});
   steps.push_back({"total_bounds", queue_.submit([&](runtime::handler& h) {
@@ -52,7 +55,10 @@ void morton<Primitive>::codes(runtime::buffer<Primitive>& primitives, runtime::b
                      const runtime::accessor in{primitives, h, runtime::read_only};
                      const runtime::accessor along{curve, h, runtime::read_only};
                      const runtime::accessor out{codes, h, runtime::write_only};
-                     h.set_args(in, along, out, count);
+                     if (is_alone_)
+                       h.set_args(in, primitive_rows<Primitive>, along, out, count);
+                     else
+                       h.set_args(in, along, out, count);
                      h.parallel_for(padded(count, codes_group), codes_);
                    })});
 }

@@ -3,18 +3,27 @@
 
 #include <cstdint>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "runtime/runtime.hpp"
 #include "tracer/layout.hpp"
 #include "tracer/pack.hpp"
+#include "tracer/program_set.hpp"
 #include "tracer/step.hpp"
 #include "tracer/tuning.hpp"
 
 namespace facet::tracer {
 
 /// The compiler's option by which kernels know what they work on (cl/bounds.h).
-std::string primitive_options(bool over_boxes);
+template <class Primitive>
+std::string primitive_options() {
+  return std::is_same_v<Primitive, Box> ? " -DFACET_OVER_BOXES" : "";
+}
+
+/// What kernels are told instead that single work-items build by: rows of four floats a primitive.
+template <class Primitive>
+inline constexpr std::uint32_t primitive_rows = std::is_same_v<Primitive, Box> ? 2 : 3;
 
 /// Primitive is texel (triangles, three corners a row) or Box.
 template <class Primitive>
@@ -27,10 +36,11 @@ class morton {
   void codes(runtime::buffer<Primitive>& primitives, runtime::buffer<Curve>& curve,
              runtime::buffer<std::uint32_t>& codes, std::uint32_t count, std::vector<step>& steps);
 
-  double compile_ms() const { return program_.build_ms(); }
+  void add_programs(program_set& to) const { to.add(program_); }
 
  private:
   runtime::queue queue_;
+  bool is_alone_;
   std::uint32_t group_, most_groups_;
   runtime::buffer<Box> partial_;
   runtime::program program_;

@@ -10,6 +10,7 @@
 #include "runtime/runtime.hpp"
 #include "scene/mesh.hpp"
 #include "tracer/kernels.hpp"
+#include "tracer/program_set.hpp"
 #include "tracer/tree.hpp"
 #include "tracer/tuning.hpp"
 
@@ -43,7 +44,7 @@ class corner_mover {
   void write_normals(const mesh_vertices& v, const device_geometry& g, const mesh_place& at,
                      const runtime::buffer<texel>& to);
 
-  double compile_ms() const { return program_.build_ms(); }
+  void add_programs(program_set& to) const { to.add(program_); }
 
  private:
   runtime::queue queue_;

@@ -27,8 +27,9 @@ node_tree node_trees::from(const given_tree& given, std::span<const texel> corne
                    leaves_);
 }
 
-double node_trees::compile_ms() const {
-  return (cut_ ? cut_->compile_ms() : 0) + over_triangles_.compile_ms();
+void node_trees::add_programs(program_set& to) const {
+  if (cut_) cut_->add_programs(to);
+  over_triangles_.add_programs(to);
 }
 
 }  // namespace facet::tracer

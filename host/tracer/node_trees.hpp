@@ -17,9 +17,13 @@ namespace facet::tracer {
 
 class node_trees {
  public:
-  /// kind: not tree_kind::none. in_order: triangles are put into leaf order, too.
+  /// kind: not tree_kind::none. in_order: triangles are put into leaf order, too. `kernels` outlive
+  /// this.
   node_trees(const runtime::queue& q, const runtime::source_tree& kernels, const tuning& t,
              tree_kind kind, leaf_rule leaves, bool in_order = false);
+
+  /// Compiles what trees over so many triangles take (tree_builder.hpp).
+  void prepare(std::uint32_t triangles) { over_triangles_.prepare(triangles); }
 
   /// Over the triangles at corners[3i..3i+2], i < count; count > 0.
   /// sorted: given if they are put into order.
@@ -34,7 +38,7 @@ class node_trees {
     return tree_builder<texel>::scratch_bytes(triangles);
   }
 
-  double compile_ms() const;
+  void add_programs(program_set& to) const;
 
  private:
   runtime::queue queue_;

@@ -35,7 +35,7 @@ class radix_sort {
   /// Bytes of device memory, at most, that a sort of `count` keys keeps beside keys and values.
   static std::uint64_t scratch_bytes(std::uint32_t count, const sort_tuning& t);
 
-  double compile_ms() const { return way_->compile_ms(); }
+  void add_programs(program_set& to) const { way_->add_programs(to); }
 
  private:
   std::vector<step> sort(const sort_request<Key>& r);

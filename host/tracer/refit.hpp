@@ -6,6 +6,7 @@
 
 #include "runtime/runtime.hpp"
 #include "tracer/kernels.hpp"
+#include "tracer/program_set.hpp"
 #include "tracer/tree.hpp"
 #include "tracer/tuning.hpp"
 
@@ -35,7 +36,7 @@ class refitter {
   void refit(const refit_plan& p, device_geometry& g, const mesh_place& at,
              const runtime::buffer<texel>& corners);
 
-  double compile_ms() const { return program_.build_ms(); }
+  void add_programs(program_set& to) const { to.add(program_); }
 
  private:
   runtime::queue queue_;

@@ -71,7 +71,8 @@ scene_mover::scene_mover(device_scene::state& s)
       uses_all_(s.model.meshes.size(), false),
       world_(runtime::host_accessor{s.geometry.world, runtime::read_only}[0]) {
   device_geometry& g = s.geometry;
-  g.compile_ms += refit_.compile_ms() + corners_.compile_ms();
+  refit_.add_programs(g.programs);
+  corners_.add_programs(g.programs);
   for (std::size_t k = 0; k < bounds_.size(); ++k)
     if (g.meshes[k].slots > 0) {
       bounds_[k] = s.model.meshes[k].bounds();
@@ -226,8 +227,8 @@ void scene_mover::write_instances() {
   const std::uint32_t stack = g.stack;
   if (has_top) {
     if (!over_instances_) {
-      over_instances_.emplace(s.queue, s.kernels, s.tuned, s.chosen.tree, g.is_wide);
-      g.compile_ms += over_instances_->compile_ms();
+      over_instances_.emplace(s.queue, s.kernels, s.tuned, s.chosen.tree, g.is_wide, sorted.size());
+      over_instances_->add_programs(g.programs);
     }
     top_plan top = over_instances_->plan(sorted);
     world_.root = over_instances_->write(top, g, g.first_top_node, sorted);

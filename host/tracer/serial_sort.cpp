@@ -39,8 +39,7 @@ serial_sort<Key>::serial_sort(runtime::queue q, const runtime::source_tree& kern
                               const tuning& t)
     : queue_(q),
       tuning_(t.sort),
-      program_(compiled(q, kernels, "radix_serial.cl",
-                        t.flags() + " -DKEY_BITS=" + std::to_string(8 * sizeof(Key)))),
+      program_(compiled(q, kernels, order_file, t.flags() + key_options<Key>())),
       count_keys_(program_.get_kernel("count_keys")),
       count_records_(program_.get_kernel("count_records")),
       scan_(program_.get_kernel("scan_counts")),

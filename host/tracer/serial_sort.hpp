@@ -12,7 +12,7 @@ class serial_sort : public sort_way<Key> {
   serial_sort(runtime::queue q, const runtime::source_tree& kernels, const tuning& t);
 
   std::vector<step> sort(const sort_request<Key>& r) override;
-  double compile_ms() const override { return program_.build_ms() + buckets_.compile_ms(); }
+  void add_programs(program_set& to) const override { to.add(program_); }
 
   static std::uint64_t scratch_bytes(std::uint32_t count, const sort_tuning& t);
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "runtime/runtime.hpp"
+#include "tracer/program_set.hpp"
 #include "tracer/step.hpp"
 #include "tracer/tuning.hpp"
 
@@ -26,7 +27,7 @@ class sort_way {
  public:
   virtual ~sort_way() = default;
   virtual std::vector<step> sort(const sort_request<Key>& r) = 0;
-  virtual double compile_ms() const = 0;
+  virtual void add_programs(program_set& to) const = 0;
 };
 
 }  // namespace facet::tracer

@@ -4,14 +4,21 @@
 #include "tracer/launch.hpp"
 
 namespace facet::tracer {
+namespace {
+
+constexpr std::uint32_t each_alone = 1024;  // cl/subtrees.cl: EACH, where nothing is said
+
+}  // namespace
 
 subtrees::subtrees(const runtime::queue& q, const runtime::source_tree& kernels, const tuning& t)
     : queue_(q),
       group_(t.list_group),
-      each_(t.list_each),
+      each_(t.orders_alone() ? each_alone : t.list_each),
       scan_group_(t.scan_group),
-      program_(compiled(q, kernels, "subtrees.cl",
-                        t.flags() + " -DEACH=" + std::to_string(t.list_each) + "u")),
+      program_(t.orders_alone()
+                   ? compiled(q, kernels, order_file, t.flags())
+                   : compiled(q, kernels, "subtrees.cl",
+                              t.flags() + " -DEACH=" + std::to_string(t.list_each) + "u")),
       mark_(program_.get_kernel(t.list_group > 1 ? "mark_subtrees" : "mark_subtrees_alone")),
       scan_(program_.get_kernel("scan_tiles")),
       list_(program_.get_kernel("list_subtrees")) {}

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "runtime/runtime.hpp"
+#include "tracer/program_set.hpp"
 #include "tracer/step.hpp"
 #include "tracer/tuning.hpp"
 
@@ -20,7 +21,7 @@ class subtrees {
                      std::vector<step>& steps);
   runtime::buffer<std::uint32_t>& starts() { return starts_; }
 
-  double compile_ms() const { return program_.build_ms(); }
+  void add_programs(program_set& to) const { to.add(program_); }
 
  private:
   runtime::queue queue_;

@@ -20,13 +20,15 @@ Box box_of(const Instance& i) {
 }  // namespace
 
 top_level::top_level(const runtime::queue& q, const runtime::source_tree& kernels, const tuning& t,
-                     tree_kind kind, bool is_wide)
-    : queue_(q),
-      group_(t.group),
-      builder_(q, kernels, t, kind, one_each),
-      program_(compiled(q, kernels, "tree.cl", t.flags())),
-      append_nodes_(program_.get_kernel("append_nodes")) {
-  if (is_wide) fold_.emplace(q, kernels, t);
+                     tree_kind kind, bool is_wide, std::size_t instances)
+    : queue_(q), group_(t.group), builder_(q, kernels, t, kind, one_each) {
+  builder_.prepare(std::uint32_t(instances));
+  if (is_wide) {
+    fold_.emplace(q, kernels, t);
+  } else {
+    narrow_ = compiled(q, kernels, "tree.cl", t.flags());
+    append_nodes_ = narrow_->get_kernel("append_nodes");
+  }
 }
 
 top_plan top_level::plan(const std::vector<Instance>& placed) {
@@ -68,13 +70,15 @@ std::uint32_t top_level::write_narrow(top_plan& p, device_geometry& g, std::uint
     const runtime::accessor from{p.tree.nodes, h, runtime::read_only};
     const runtime::accessor to{g.nodes, h, runtime::read_write};
     h.set_args(from, to, p.tree.node_count, first_node, 0u);
-    h.parallel_for(padded(p.tree.node_count, group_), append_nodes_);
+    h.parallel_for(padded(p.tree.node_count, group_), *append_nodes_);
   });
   return first_node + p.tree.root;
 }
 
-double top_level::compile_ms() const {
-  return program_.build_ms() + builder_.compile_ms() + (fold_ ? fold_->compile_ms() : 0);
+void top_level::add_programs(program_set& to) const {
+  if (narrow_) to.add(*narrow_);
+  builder_.add_programs(to);
+  if (fold_) fold_->add_programs(to);
 }
 
 }  // namespace facet::tracer

@@ -27,9 +27,9 @@ struct top_plan {
 
 class top_level {
  public:
-  /// kind: not tree_kind::none.
+  /// kind: not tree_kind::none. instances: to be expected. `kernels` outlive this.
   top_level(const runtime::queue& q, const runtime::source_tree& kernels, const tuning& t,
-            tree_kind kind, bool is_wide);
+            tree_kind kind, bool is_wide, std::size_t instances);
 
   /// Over the bounds of placed meshes, at least one; an instance is a leaf. The plan before is used
   /// up, too. Waits for the device.
@@ -45,7 +45,7 @@ class top_level {
   std::uint32_t write(top_plan& p, device_geometry& g, std::uint32_t first_node,
                       std::vector<Instance>& placed);
 
-  double compile_ms() const;
+  void add_programs(program_set& to) const;
 
  private:
   std::uint32_t write_narrow(top_plan& p, device_geometry& g, std::uint32_t first_node);
@@ -55,8 +55,8 @@ class top_level {
   tree_builder<Box> builder_;
   std::optional<folder> fold_;
   node_tree tree_;  ///< of the last plan: its memory is used again
-  runtime::program program_;
-  runtime::kernel append_nodes_;
+  std::optional<runtime::program> narrow_;
+  std::optional<runtime::kernel> append_nodes_;
 };
 
 }  // namespace facet::tracer

@@ -42,11 +42,8 @@ top_tree::top_tree(const runtime::queue& q, const runtime::source_tree& kernels,
     : queue_(q),
       is_serial_(t.serial_trees),
       split_group_(t.split_group),
-      // Over instances the bottoms' program has the serial kernel as well: their leaves' rule is
-      // the top's, a primitive each.
       program_(is_serial_
-                   ? compiled(q, kernels, "serial_tree.cl",
-                              t.flags() + primitive_options(true) + leaf_options(one_each, false))
+                   ? compiled(q, kernels, serial_file, t.flags())
                    : compiled(q, kernels, "top.cl",
                               t.flags() + " -DSPLIT_GROUP=" + std::to_string(t.split_group) + "u")),
       ranges_(two<TopRange>()),

@@ -7,6 +7,7 @@
 
 #include "runtime/runtime.hpp"
 #include "tracer/bottoms.hpp"
+#include "tracer/program_set.hpp"
 
 namespace facet::tracer {
 
@@ -20,7 +21,7 @@ class top_tree {
                       std::vector<step>& steps);
 
   static std::uint64_t scratch_bytes(std::uint64_t count);
-  double compile_ms() const { return program_.build_ms(); }
+  void add_programs(program_set& to) const { to.add(program_); }
 
  private:
   std::uint32_t build_serial(runtime::buffer<Curve>& curve, tree_parts& parts, std::uint32_t count,

@@ -280,9 +280,10 @@ void device_scene::state::describe(statistics& s) const {
   s.device = d.name();
   s.platform = d.platform_name();
   s.driver = d.driver_version();
-  s.compile_ms = geometry.compile_ms + (trace_program ? trace_program->build_ms() : 0) +
-                 (refilled_program ? refilled_program->build_ms() : 0) +
-                 (render_program ? render_program->build_ms() : 0);
+  program_set programs = geometry.programs;
+  for (const auto* p : {&trace_program, &refilled_program, &render_program})
+    if (*p) programs.add(**p);
+  s.compile_ms = programs.build_ms();
   s.upload_ms = geometry.upload_ms;
   s.build_ms = geometry.build_ms;
   s.geometry = in_images ? "image" : "buffer";

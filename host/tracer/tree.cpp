@@ -59,7 +59,7 @@ class node_array {
         touch_(program_.get_kernel("touch")),
         append_nodes_(program_.get_kernel("append_nodes")) {}
 
-  double compile_ms() const { return program_.build_ms(); }
+  void add_programs(program_set& to) const { to.add(program_); }
 
   /// Puts the tree's nodes behind the first `nodes`; its places are then counted from `slots` on.
   void append(node_tree& tree, runtime::buffer<Node>& all, std::uint32_t nodes,
@@ -128,10 +128,11 @@ device_geometry build_geometry(runtime::queue& q, const runtime::source_tree& ke
   leaf_order gather(q, kernels, t);
   std::optional<node_trees> build;
   if (kind != tree_kind::none)
-    build.emplace(q, kernels, t, kind, leaf_rule{t.leaf_sure, t.leaf_size}, true);
+    build.emplace(q, kernels, t, kind, leaf_rule{t.leaf_sure, t.leaf_size}, true)
+        .prepare(largest_mesh(packed));
   std::optional<top_level> over_instances;
   if (kind != tree_kind::none && f.instances && !packed.instances.empty())
-    over_instances.emplace(q, kernels, t, kind, false);
+    over_instances.emplace(q, kernels, t, kind, false, packed.instances.size());
   const std::size_t texels =
       in_images ? whole_rows(3 * triangles) : std::max<std::size_t>(1, 3 * triangles);
   const std::size_t instances = packed.instances.size();
@@ -230,8 +231,10 @@ device_geometry build_geometry(runtime::queue& q, const runtime::source_tree& ke
   q.wait_and_throw();
   g.build_ms = build_ms + milliseconds_since(start_top);
   g.upload_ms = upload_ms;
-  g.compile_ms = array.compile_ms() + gather.compile_ms() + (build ? build->compile_ms() : 0) +
-                 (over_instances ? over_instances->compile_ms() : 0);
+  array.add_programs(g.programs);
+  gather.add_programs(g.programs);
+  if (build) build->add_programs(g.programs);
+  if (over_instances) over_instances->add_programs(g.programs);
   g.bytes = g.nodes.byte_size() + g.instances.byte_size() + g.infos.byte_size() +
             g.materials.byte_size() + texels * sizeof(texel) * (smooth ? 2 : 1);
   return g;

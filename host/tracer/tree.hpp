@@ -44,7 +44,8 @@ struct device_geometry {
   std::uint32_t depth = 0;       ///< deepest way from the top's root to a leaf
   std::uint64_t nodes_used = 0;  ///< of all binary trees that the layout is made from
   std::uint64_t bytes = 0;       ///< of device memory that stays allocated
-  double compile_ms = 0, upload_ms = 0, build_ms = 0;
+  program_set programs{};        ///< that it was made by
+  double upload_ms = 0, build_ms = 0;
 };
 
 /// Sets what follows from the meshes' trees and the tree over instances, if there is one: depth,

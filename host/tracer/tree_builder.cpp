@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "tracer/curve_order.hpp"
 #include "tracer/levels.hpp"
-#include "tracer/morton.hpp"
-#include "tracer/radix_sort.hpp"
-#include "tracer/subtrees.hpp"
 #include "tracer/top_tree.hpp"
 
 namespace facet::tracer {
@@ -56,7 +54,7 @@ template <class Primitive>
 struct tree_builder<Primitive>::parts {
   parts(const runtime::queue& q, const runtime::source_tree& kernels, const tuning& t,
         tree_kind kind, leaf_rule leaves, bool in_order)
-      : morton_codes(q, kernels, t), sort(q, kernels, t), cut(q, kernels, t) {
+      : in_curve(q, kernels, t) {
     // A group reads a subtree's triangles anyway. What a single work-item does is faster apart.
     const bool at_once = in_order && !t.serial_trees;
     if (kind == tree_kind::levels)
@@ -66,9 +64,7 @@ struct tree_builder<Primitive>::parts {
     if (in_order && !at_once) gather.emplace(q, kernels, t);
   }
 
-  morton<Primitive> morton_codes;
-  radix_sort<std::uint32_t> sort;
-  subtrees cut;
+  curve_order<Primitive> in_curve;
   std::optional<levels<Primitive>> merge;
   std::optional<binned<Primitive>> split;
   std::optional<leaf_order> gather;
@@ -90,12 +86,19 @@ template <class Primitive>
 tree_builder<Primitive>::~tree_builder() = default;
 
 template <class Primitive>
-double tree_builder<Primitive>::compile_ms() const {
+void tree_builder<Primitive>::prepare(std::uint32_t count) {
+  parts_->in_curve.prepare(count);
+}
+
+template <class Primitive>
+void tree_builder<Primitive>::add_programs(program_set& to) const {
   const parts& p = *parts_;
-  return p.morton_codes.compile_ms() + p.sort.compile_ms() + p.cut.compile_ms() +
-         (p.gather ? p.gather->compile_ms() : 0) +
-         (p.merge ? p.merge->compile_ms()
-                  : p.split->bottom.compile_ms() + p.split->top.compile_ms());
+  p.in_curve.add_programs(to);
+  if (p.gather) p.gather->add_programs(to);
+  if (p.merge) p.merge->add_programs(to);
+  if (!p.split) return;
+  p.split->bottom.add_programs(to);
+  p.split->top.add_programs(to);
 }
 
 template <class Primitive>
@@ -115,13 +118,11 @@ void tree_builder<Primitive>::try_build(runtime::buffer<Primitive>& primitives, 
   parts& p = *parts_;
   steps_.clear();
   hold(p.codes, count);
-  p.morton_codes.codes(primitives, p.curve, p.codes, count, steps_);
-  for (step& s : p.sort.sort_order(p.codes, t.order, count)) steps_.push_back(std::move(s));
-  const std::uint32_t found = p.cut.list(p.codes, count, steps_);
+  const std::uint32_t found = p.in_curve.make(primitives, count, p.curve, p.codes, t.order, steps_);
   hold(p.items, found);
   hold(p.refs, found);
   tree_parts to{t.nodes, p.items, p.refs};
-  const sorted_places places{p.codes, t.order, p.cut.starts(), count, found};
+  const sorted_places places{p.codes, t.order, p.in_curve.starts(), count, found};
   const leaf_triangles* at_once = p.gather ? nullptr : sorted;
   const built_root r = p.merge ? p.merge->build(primitives, places, to, at_once, steps_)
                                : p.split->build(primitives, p.curve, places, to, at_once, steps_);

@@ -27,11 +27,16 @@ namespace facet::tracer {
 template <class Primitive>
 class tree_builder {
  public:
-  /// kind: not tree_kind::none. in_order: triangles are put into leaf order, too.
+  /// kind: not tree_kind::none. in_order: triangles are put into leaf order, too. `kernels` outlive
+  /// this.
   tree_builder(const runtime::queue& q, const runtime::source_tree& kernels, const tuning& t,
                tree_kind kind, leaf_rule leaves, bool in_order = false);
   tree_builder(tree_builder&&) noexcept;
   ~tree_builder();
+
+  /// Compiles what trees over so many primitives take beside what all do, which the first of them
+  /// does otherwise.
+  void prepare(std::uint32_t count);
 
   /// The tree over the first `count` > 0 primitives; finite ones. Memory that `into` holds is used
   /// again where it is enough. sorted: given if the builder is in_order.
@@ -44,7 +49,7 @@ class tree_builder {
 
   /// The commands of the last build.
   const std::vector<step>& steps() const { return steps_; }
-  double compile_ms() const;
+  void add_programs(program_set& to) const;
 
  private:
   struct parts;

@@ -31,6 +31,9 @@ struct tuning : choices {
   void build_in_groups();
   void build_alone();
 
+  /// Whether single work-items put primitives in order, too: sort and build as on a CPU.
+  bool orders_alone() const { return serial_trees && sort.face == sort_face::serial; }
+
   /// Options for the compiler, each with a space before it.
   std::string flags() const;
 };

@@ -53,11 +53,11 @@ class wide_builder {
         triangles_(packed_.world.triangle_count),
         fold_(q, kernels, t),
         blocks_(q, kernels, t) {
-    if (has_trees()) trees_.emplace(q, kernels, t, kind, block_leaves);
+    const std::uint32_t largest = largest_mesh(packed_);
+    if (has_trees()) trees_.emplace(q, kernels, t, kind, block_leaves).prepare(largest);
     if (has_trees() && f.instances && !packed_.instances.empty())
-      over_instances_.emplace(q, kernels, t, kind, true);
+      over_instances_.emplace(q, kernels, t, kind, true, packed_.instances.size());
     // What planning takes of a mesh is less than what building and cutting took.
-    const std::uint64_t largest = largest_mesh(packed_);
     check_memory(
         q.get_device(), triangles_,
         triangles_ * uploaded_bytes + (has_trees() ? node_trees::scratch_bytes(largest) : 0));
@@ -79,8 +79,10 @@ class wide_builder {
     queue_.wait_and_throw();
     g.build_ms = milliseconds_since(start_build);
     g.upload_ms = upload_ms;
-    g.compile_ms = (trees_ ? trees_->compile_ms() : 0) + fold_.compile_ms() + blocks_.compile_ms() +
-                   (over_instances_ ? over_instances_->compile_ms() : 0);
+    if (trees_) trees_->add_programs(g.programs);
+    fold_.add_programs(g.programs);
+    blocks_.add_programs(g.programs);
+    if (over_instances_) over_instances_->add_programs(g.programs);
     return g;
   }
 

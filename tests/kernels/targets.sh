@@ -50,7 +50,7 @@ for target in spir64-unknown-unknown nvptx64-nvidia-nvcl amdgcn-amd-amdhsa; do
   done
   as=check
   [[ $target == spir64* ]] && as=code
-  echo "$target $as serial_tree.cl"
+  echo "$target $as serial.cl"
   echo "$target $as serial_levels.cl"
   for key in uint ulong; do
     for kernel in radix_counts.cl radix_sort.cl "radix_sort.cl -DFACET_LOOK_BACK" \
@@ -60,9 +60,7 @@ for target in spir64-unknown-unknown nvptx64-nvidia-nvcl amdgcn-amd-amdhsa; do
     # A CPU's kernels: their stack is more than AMD's GPUs have.
     as=check
     [[ $target == spir64* ]] && as=code
-    for kernel in radix_serial.cl radix_buckets.cl; do
-      echo "$target $as $kernel -DKEY_BITS=$([[ $key == uint ]] && echo 32 || echo 64)"
-    done
+    echo "$target $as serial_order.cl -DKEY_BITS=$([[ $key == uint ]] && echo 32 || echo 64)"
   done
 done > "$jobs"
 for ((set = 0; set < 1 << ${#derived[@]}; ++set)); do
