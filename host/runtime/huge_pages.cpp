@@ -1,39 +1,51 @@
 #include "runtime/huge_pages.hpp"
 
-#ifdef __linux__
-#include <sys/mman.h>
+#include <memory>
 
-#include <cstdlib>
+#include "runtime/block_store.hpp"
+
+#ifdef __linux__
+#include <unistd.h>
 #endif
 
 namespace facet::runtime::detail {
+namespace {
 
+std::size_t machine_bytes() {
 #ifdef __linux__
+  const long pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGESIZE);
+  if (pages > 0 && size > 0) return std::size_t(pages) * std::size_t(size);
+#endif
+  return 0;
+}
+
+/// Never destroyed: a driver may let go of a buffer after the last static object is gone.
+block_store& store() {
+  static auto* one = new block_store(machine_bytes() / 32);
+  return *one;
+}
+
+void CL_CALLBACK let_go(cl_mem, void* of) {
+  const std::unique_ptr<block_store::block> b(static_cast<block_store::block*>(of));
+  store().give_back(*b);
+}
+
+}  // namespace
 
 std::optional<cl::Buffer> buffer_in_huge_pages(const cl::Context& c, std::size_t bytes) {
-  constexpr std::size_t page = std::size_t(2) << 20;
-  if (bytes < page) return std::nullopt;
-  const std::size_t whole = (bytes + page - 1) / page * page;
-  void* const memory = std::aligned_alloc(page, whole);
-  if (!memory) return std::nullopt;
-  // A system that has none gives the pages that it has.
-  madvise(memory, whole, MADV_HUGEPAGE);
+  if (bytes < block_store::page) return std::nullopt;
+  auto block = std::make_unique<block_store::block>(store().take(bytes));
+  if (!block->memory) return std::nullopt;
   const cl_mem b =
-      clCreateBuffer(c(), CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, bytes, memory, nullptr);
+      clCreateBuffer(c(), CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, bytes, block->memory, nullptr);
   // The last command that uses the buffer may end after its last owner.
-  const auto let_go = [](cl_mem, void* p) { std::free(p); };
-  if (b && clSetMemObjectDestructorCallback(b, let_go, memory) == CL_SUCCESS) return cl::Buffer(b);
+  if (b && clSetMemObjectDestructorCallback(b, let_go, block.get()) == CL_SUCCESS) {
+    block.release();
+    return cl::Buffer(b);
+  }
   if (b) clReleaseMemObject(b);
-  std::free(memory);
+  store().give_back(*block);
   return std::nullopt;
 }
-
-#else
-
-std::optional<cl::Buffer> buffer_in_huge_pages(const cl::Context&, std::size_t) {
-  return std::nullopt;
-}
-
-#endif
 
 }  // namespace facet::runtime::detail
