@@ -85,13 +85,13 @@ picture render_serial(const arguments& o, const scene& s, picture_shape p,
 picture render_on_device(const arguments& o, const scene& s, picture_shape p,
                          tracer::statistics& stats) {
   const runtime::device device = choose_device(o.tracing.device, o.say);
-  prepare_to_write(o.out);  // not before: the driver's libraries would wait for it
   tracer::options options = o.tracing.tracer;
   options.defaults = tuned_defaults(device, o.tracing.no_tuning, o.say);
   options.group_width = o.group.width, options.group_height = o.group.height;
   options.tile_width = o.tile.width, options.tile_height = o.tile.height;
   tracer::device_scene on_device(runtime::queue(device), s, options);
   stop_if_interrupted("preparing the device");
+  prepare_to_write(o.out);
   progress_bar bar("rendering", o.say.quiet);
   try {
     return on_device.render(
