@@ -4,10 +4,6 @@
 
 #include "vec.h"
 
-// For what is large and called from several places, that a CPU's driver, which compiles while a program starts,
-// has it once.
-#define ONE_COPY __attribute__((noinline)) static
-
 typedef struct {
   float3 lo, hi;
 } Bounds;

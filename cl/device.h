@@ -6,8 +6,9 @@
 // For what two searches call with vectors, which a call would pass through memory.
 #define INLINED __attribute__((always_inline)) static inline
 
-// For what is called seldom, that it takes no registers where it is not.
-#define SELDOM __attribute__((noinline)) static
+// A function to which the compiler allots registers by itself: what is called seldom takes none where it is not, a
+// search is as fast whatever comes before it, and what several call is compiled once.
+#define APART __attribute__((noinline)) static
 
 // The larger, or the smaller, by component, where `bound` is never NaN; a NaN in `a` is dropped. The
 // sign of a zero may be either: use only where it cannot reach a result. GPUs

@@ -51,8 +51,8 @@ static inline Ways ways_at(__global const FoldCost* cost) {
 
 // From what the children cost to what the node does, at `cost`. No area is above FLT_MAX here, as what
 // overflows is not chosen: then each side has half of the places.
-ONE_COPY void plan_node(__global const Node* nodes, uint node, Ways left, Ways right,
-                        __global FoldPlan* plans, __global FoldCost* cost) {
+APART void plan_node(__global const Node* nodes, uint node, Ways left, Ways right,
+                     __global FoldPlan* plans, __global FoldCost* cost) {
   float left_area[WIDTH];
   uint left_nodes[WIDTH], left_depth[WIDTH];
   vstore8(left.area, 0, left_area);
@@ -103,9 +103,9 @@ ONE_COPY void plan_node(__global const Node* nodes, uint node, Ways left, Ways r
 // Writes the wide node that stands for `node`, whose place and leaves are known; names its leaves in
 // `leaves`, tells its other children theirs, and gives these, from the left. As children, wide nodes are
 // counted from first_node on and leaves from first_leaf on.
-ONE_COPY uint emit_node(__global const Node* nodes, __global FoldPlan* plans, uint node,
-                        __global WideNode* wide, __global uint* leaves, uint first_node,
-                        uint first_leaf, uint* inner) {
+APART uint emit_node(__global const Node* nodes, __global FoldPlan* plans, uint node,
+                     __global WideNode* wide, __global uint* leaves, uint first_node,
+                     uint first_leaf, uint* inner) {
   __global WideNode* to = &wide[first_node + plans[node].nodes];
   uint at = plans[node].nodes + 1u, leaf = plans[node].leaves, lane = 0u, inner_count = 0u;
   // Subtrees that wait, as the node above and its side, and their places. Each becomes at least one child.

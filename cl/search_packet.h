@@ -77,7 +77,7 @@ static inline Query found_in_lane(const PacketPart* p, uint lane) {
 }
 
 // Of the lanes in `tied`, which meet a triangle at their best hit's distance, those that keep their best hit.
-SELDOM Mask keep_of(const Scene* s, const PacketPart* p, uint place, uint slot, uint tied) {
+APART Mask keep_of(const Scene* s, const PacketPart* p, uint place, uint slot, uint tied) {
   int keep[FACET_LANES] = {0};
   for (; tied != 0u; tied = without_first(tied)) {
     const uint lane = first_lane(tied), best = ((const uint*)&p->slot)[lane];
@@ -125,8 +125,8 @@ static inline void meet_one(const Scene* s, GEOMETRY positions, PacketPart* p, c
 }
 
 // One ray's search from a node on.
-SELDOM void search_alone(const Scene* s, GEOMETRY positions, uint node, const PacketSpace* in, uint part,
-                         PacketPart* p, uint lane, uint mode) {
+APART void search_alone(const Scene* s, GEOMETRY positions, uint node, const PacketSpace* in, uint part,
+                        PacketPart* p, uint lane, uint mode) {
   float *t = (float*)&p->t, *det = (float*)&p->det;
   uint* slot = (uint*)&p->slot;
   Space space = space_in_lane(&in->rays[part], lane);

@@ -131,8 +131,8 @@ typedef struct {
 
 // The tree over entries 0 .. count - 1, its nodes numbered from `base` on; leaf i (in order) is leaves[i]: begin, end
 // in orders.by[3], and its link and depth. Returns the nodes; *leaf_count.
-ONE_COPY uint serial_sweep(const Entries* e, uint count, LeafRule rule, uint base, Node* nodes, Orders* orders,
-                           Segment* leaves, uint* leaf_count) {
+APART uint serial_sweep(const Entries* e, uint count, LeafRule rule, uint base, Node* nodes, Orders* orders,
+                        Segment* leaves, uint* leaf_count) {
   order_by_ties(e, count, orders);
   for (uint axis = 0u; axis < 3u && count > rule.sure; ++axis) order_by_axis(e, count, axis, orders);
   Segment stack[32];

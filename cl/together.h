@@ -11,8 +11,9 @@ typedef struct {
   uint which;
 } Bundle;
 
-// Fewer rays go alone, each by itself, from the start.
+// Fewer rays go alone, each by itself, from the start; and fewer of those that are alike.
 #define FEW_IN_BUNDLE 4u
+#define FEW_ALIKE 8u
 
 static inline void put_ray(Bundle* b, uint i, float3 o, float3 d, float tmax, float t_end) {
   b->o[0][i] = o.x, b->o[1][i] = o.y, b->o[2][i] = o.z;
@@ -34,10 +35,10 @@ static inline Points rows_from(const float a[3][FACET_PACKET], uint part) {
   return p;
 }
 
-// Where there is no ray, the first one stands again, and looks for nothing.
-static inline bool packet_of_bundle(Bundle* b, float3 reach, PacketPart* part, PacketSpace* world) {
-  const uint first = first_lane(b->which);
-  for (uint none = ~b->which; none != 0u; none = without_first(none)) {
+// Those of the rays in `some`. Where there is none of them, the first one stands again, and looks for nothing.
+static inline bool packet_of_bundle(Bundle* b, uint some, float3 reach, PacketPart* part, PacketSpace* world) {
+  const uint first = first_lane(some);
+  for (uint none = ~some; none != 0u; none = without_first(none)) {
     const uint i = first_lane(none);
     for (int c = 0; c < 3; ++c) b->o[c][i] = b->o[c][first], b->d[c][i] = b->d[c][first];
     b->tmax[i] = b->tmax[first];
@@ -45,7 +46,7 @@ static inline bool packet_of_bundle(Bundle* b, float3 reach, PacketPart* part, P
   for (uint k = 0u; k < FACET_PARTS; ++k)
     begin_part(&part[k], rows_from(b->o, k), rows_from(b->d, k), in_all(0.0f), vload8(k, b->tmax));
   if (!packet_of(part, reach, world)) return false;
-  for (uint none = ~b->which; none != 0u; none = without_first(none)) {
+  for (uint none = ~some; none != 0u; none = without_first(none)) {
     const uint i = first_lane(none);
     ((float*)&part[i / FACET_LANES].t)[i % FACET_LANES] = -INFINITY;
   }
@@ -75,20 +76,18 @@ static inline Query query_in_lane(const Scene* s, GEOMETRY positions, const Pack
   return q;
 }
 
-SELDOM void each_by_itself(const Scene* s, GEOMETRY positions, const Bundle* b, uint mode, Query* found) {
-  for (uint left = b->which; left != 0u; left = without_first(left)) {
-    const uint i = first_lane(left);
+APART void each_by_itself(const Scene* s, GEOMETRY positions, const Bundle* b, uint some, uint mode, Query* found) {
+  for (; some != 0u; some = without_first(some)) {
+    const uint i = first_lane(some);
     found[i] = traverse_to(s, positions, row_at(b->o, i), row_at(b->d, i), 0.0f, b->tmax[i], b->t_end[i], mode);
   }
 }
 
-// What each ray of the bundle meets, found[i]. Each starts at t = 0.
-static inline void trace_together(const Scene* s, GEOMETRY positions, Bundle* b, uint mode, Query* found) {
+// Those rays as a packet; false if they cannot go together, and then `b` is as it was for them.
+static inline bool as_packet(const Scene* s, GEOMETRY positions, Bundle* b, uint some, uint mode, Query* found) {
   PacketPart part[FACET_PARTS];
   PacketSpace world;
-  if (popcount(b->which) < FEW_IN_BUNDLE || s->triangle_count == 0u ||
-      !packet_of_bundle(b, s->reach, part, &world))
-    return each_by_itself(s, positions, b, mode, found);
+  if (s->triangle_count == 0u || !packet_of_bundle(b, some, s->reach, part, &world)) return false;
 #ifndef FACET_NO_TRANSPARENCY
   for (uint k = 0u; k < FACET_PARTS; ++k) {
     part[k].t_end = vload8(k, b->t_end);
@@ -97,10 +96,54 @@ static inline void trace_together(const Scene* s, GEOMETRY positions, Bundle* b,
   }
 #endif
   search_packet(s, positions, &world, mode, part);
-  for (uint left = b->which; left != 0u; left = without_first(left)) {
-    const uint i = first_lane(left);
+  for (; some != 0u; some = without_first(some)) {
+    const uint i = first_lane(some);
     found[i] = query_in_lane(s, positions, &world, part, i, mode);
   }
+  return true;
+}
+
+// Rays of one kind can go together: directions with the same signs and the same main axis.
+static inline uint8 kinds_of(Points d) {
+  const Real x = fabs(d.x), y = fabs(d.y), z = fabs(d.z);
+  const uint8 axis = y > x ? (z > y ? (uint8)(2u) : (uint8)(1u)) : (z > x ? (uint8)(2u) : (uint8)(0u));
+  return axis << 3 | as_uint8(d.x) >> 31 << 2 | as_uint8(d.y) >> 31 << 1 | as_uint8(d.z) >> 31;
+}
+
+// The rays of that one's kind.
+static inline uint rays_like(const uint8* kinds, uint ray) {
+  const uint8 kind = (uint8)(((const uint*)kinds)[ray]);
+  uint same = 0u;
+  for (uint k = 0u; k < FACET_PARTS; ++k) same |= lanes_of(kinds[k] == kind) << FACET_LANES * k;
+  return same;
+}
+
+// Kinds change from pixel to pixel along a line: a kind of many of a block's rays has one of its corners.
+#define CORNERS 4u
+static inline uint corner_ray(uint corner) {
+  return (corner & 1u ? FACET_PACKET_COLUMNS - 1u : 0u) + (corner & 2u ? FACET_PACKET - FACET_PACKET_COLUMNS : 0u);
+}
+
+// Of rays that cannot all go together those of which many are alike. Gives those that are left.
+APART uint by_kinds(const Scene* s, GEOMETRY positions, const Bundle* b, uint mode, Query* found) {
+  uint8 kinds[FACET_PARTS];
+  for (uint k = 0u; k < FACET_PARTS; ++k) kinds[k] = kinds_of(rows_from(b->d, k));
+  uint left = b->which;
+  for (uint c = 0u; c < CORNERS; ++c) {
+    const uint some = left & rays_like(kinds, corner_ray(c));
+    if (popcount(some) < FEW_ALIKE || some == b->which) continue;
+    Bundle alike = *b;
+    if (as_packet(s, positions, &alike, some, mode, found)) left &= ~some;
+  }
+  return left;
+}
+
+// What each ray of the bundle meets, found[i]. Each starts at t = 0.
+static inline void trace_together(const Scene* s, GEOMETRY positions, Bundle* b, uint mode, Query* found) {
+  uint alone = b->which;
+  if (popcount(alone) >= FEW_IN_BUNDLE)
+    alone = as_packet(s, positions, b, alone, mode, found) ? 0u : by_kinds(s, positions, b, mode, found);
+  each_by_itself(s, positions, b, alone, mode, found);
 }
 
 #endif

@@ -48,8 +48,8 @@ static inline void write_part(const Scene* s, GEOMETRY positions, const PacketPa
 #endif
 }
 
-SELDOM void trace_alone(const Scene* s, GEOMETRY positions, __global const Ray* rays, uint count, uint mode,
-                        __global Hit* hits, __global uint* hit_instances) {
+APART void trace_alone(const Scene* s, GEOMETRY positions, __global const Ray* rays, uint count, uint mode,
+                       __global Hit* hits, __global uint* hit_instances) {
   for (uint i = 0u; i < count; ++i) {
     const Query q = traced_query(s, positions, rays + i, mode);
     write_hit(hits, hit_instances, i, &q);
