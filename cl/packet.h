@@ -148,7 +148,7 @@ static inline bool packet_in(const PacketPart* part, const Points* o, const Poin
 }
 
 // In the world; false also where they had better not go together.
-static inline bool packet_of(const PacketPart* part, float3 reach, PacketSpace* world) {
+APART bool packet_of(const PacketPart* part, float3 reach, PacketSpace* world) {
   if (!can_go_together(part, reach)) return false;
   Points o[FACET_PARTS], d[FACET_PARTS];
   for (uint k = 0u; k < FACET_PARTS; ++k) o[k] = part[k].o, d[k] = part[k].d;
