@@ -1,25 +1,28 @@
-// Large buffers on a CPU: contents, alignment, and that their memory is given back.
+// Large buffers on a CPU: contents, alignment, and that their memory is used again.
 #include <doctest/doctest.h>
+#include <unistd.h>
 
 #include <cstdint>
 #include <fstream>
 #include <numeric>
 #include <vector>
 
+#include "runtime/block_store.hpp"
 #include "runtime/fixture_helper.hpp"
 
 using namespace facet;
 using namespace facet::runtime;
+using facet::runtime::detail::block_store;
 
 namespace {
 
-constexpr std::size_t page = std::size_t(2) << 20;
+constexpr std::size_t page = block_store::page;
 
 /// Bytes of memory that the process has in use.
 std::uint64_t resident_bytes() {
   std::uint64_t size = 0, resident = 0;
   std::ifstream("/proc/self/statm") >> size >> resident;
-  return resident * 4096;
+  return resident * std::uint64_t(sysconf(_SC_PAGESIZE));
 }
 
 }  // namespace
