@@ -103,7 +103,8 @@ static inline bool as_packet(const Scene* s, GEOMETRY positions, Bundle* b, uint
   return true;
 }
 
-// Rays of one kind can go together: directions with the same signs and the same main axis.
+// Rays of one kind can go together: directions with the same signs and the same main axis (space.h:
+// main_axis, of each).
 static inline uint8 kinds_of(Points d) {
   const Real x = fabs(d.x), y = fabs(d.y), z = fabs(d.z);
   const uint8 axis = y > x ? (z > y ? (uint8)(2u) : (uint8)(1u)) : (z > x ? (uint8)(2u) : (uint8)(0u));
