@@ -4,6 +4,7 @@
 
 #include "beam.h"
 #include "query.h"
+#include "transpose.h"
 
 #define FACET_PARTS (FACET_PACKET / FACET_LANES)
 
@@ -32,22 +33,6 @@ typedef struct {
   Beam beam;
   uint place;  // FACET_NONE: the world
 } PacketSpace;
-
-// Eight rows of eight, columns for rows.
-static inline void transpose(Real a[8]) {
-  const Real b0 = (Real)(a[0].even, a[1].even), b4 = (Real)(a[0].odd, a[1].odd);
-  const Real b1 = (Real)(a[2].even, a[3].even), b5 = (Real)(a[2].odd, a[3].odd);
-  const Real b2 = (Real)(a[4].even, a[5].even), b6 = (Real)(a[4].odd, a[5].odd);
-  const Real b3 = (Real)(a[6].even, a[7].even), b7 = (Real)(a[6].odd, a[7].odd);
-  const Real c0 = (Real)(b0.even, b1.even), c4 = (Real)(b0.odd, b1.odd);
-  const Real c1 = (Real)(b2.even, b3.even), c5 = (Real)(b2.odd, b3.odd);
-  const Real c2 = (Real)(b4.even, b5.even), c6 = (Real)(b4.odd, b5.odd);
-  const Real c3 = (Real)(b6.even, b7.even), c7 = (Real)(b6.odd, b7.odd);
-  a[0] = (Real)(c0.even, c1.even), a[4] = (Real)(c0.odd, c1.odd);
-  a[1] = (Real)(c2.even, c3.even), a[5] = (Real)(c2.odd, c3.odd);
-  a[2] = (Real)(c4.even, c5.even), a[6] = (Real)(c4.odd, c5.odd);
-  a[3] = (Real)(c6.even, c7.even), a[7] = (Real)(c6.odd, c7.odd);
-}
 
 // Whether on each axis a sign is another than the first ray's.
 static inline bool do_signs_differ(Points d, float3 first) {

@@ -15,29 +15,28 @@ __kernel void build_bottoms(PRIMITIVES_ARGUMENT, __global const uint* starts, __
     Entries e;
     uint primitive[32];
     Packed all = no_packed();
+    begin_entries(&e);
     for (uint i = 0u; i < count; ++i) {
       primitive[i] = order[first + i];
-      put_entry(&e, i, bounds_at(PRIMITIVE(primitive[i])), i, 1u);
+      put_entry(&e, i, bounds_at(PRIMITIVE(primitive[i])), 1u);
       all = joined_packed(e.box[i], all);
     }
     Node made[31];
-    Orders orders;
     Segment leaves[32];
-    uint leaf_count, height = 0u;
-    const uint made_count = serial_sweep(&e, count, rule, 0u, made, &orders, leaves, &leaf_count);
+    uint leaf_count, height = 0u, at = first;
+    const uint made_count = serial_sweep(&e, count, rule, 0u, made, leaves, &leaf_count);
     // What does not fit is counted all the same: the host makes room and starts again.
     const uint base = made_count == 0u ? 0u : atomic_add((volatile __global uint*)counter, made_count);
     for (uint i = 0u; i < made_count; ++i)
       for (uint side = 0u; side < 2u; ++side) made[i].child[side] += base;
     for (uint i = 0u; i < leaf_count; ++i) {
-      const Segment l = leaves[i];
-      if (l.link != FACET_NONE)
-        made[l.link >> 1].child[l.link & 1u] = FACET_LEAF(first + l.begin, l.end - l.begin);
-      height = max(height, l.depth);
+      const Segment* l = &leaves[i];
+      if (l->link != FACET_NONE) made[l->link >> 1].child[l->link & 1u] = FACET_LEAF(at, popcount(l->entries));
+      height = max(height, l->depth);
+      for (uint left = l->entries; left != 0u; left = without_first(left)) order[at++] = primitive[first_lane(left)];
     }
     if (base + made_count <= room)
       for (uint i = 0u; i < made_count; ++i) nodes[base + i] = made[i];
-    for (uint i = 0u; i < count; ++i) order[first + i] = primitive[orders.by[3][i]];
     Item item;
     item.lo[0] = all.s0, item.lo[1] = all.s1, item.lo[2] = all.s2, item.index = k;
     item.hi[0] = -all.s4, item.hi[1] = -all.s5, item.hi[2] = -all.s6;
@@ -134,21 +133,28 @@ static inline uint part_items(__global Item* items, const Waiting* w, uint axis,
 static inline uint finish_range(__global const Item* items, const Waiting* w, __global Node* nodes,
                                 __global const uint* refs) {
   const uint count = w->end - w->begin;
-  Entries e;
+  // Entries come in the order of indices, which breaks ties.
+  uchar place[32];
   for (uint i = 0u; i < count; ++i) {
-    __global const Item* item = &items[w->begin + i];
-    put_entry(&e, i, item_bounds(item), item->index, FACET_SIZE_OF(item->size));
+    uint k = i;
+    for (; k > 0u && items[w->begin + place[k - 1u]].index > items[w->begin + i].index; --k) place[k] = place[k - 1u];
+    place[k] = (uchar)i;
+  }
+  Entries e;
+  begin_entries(&e);
+  for (uint i = 0u; i < count; ++i) {
+    __global const Item* item = &items[w->begin + place[i]];
+    put_entry(&e, i, item_bounds(item), FACET_SIZE_OF(item->size));
   }
   Node made[31];
-  Orders orders;
   Segment leaves[32];
   uint leaf_count, deepest = 0u;
   const LeafRule one_each = {1u, 1u, 0u};
-  const uint made_count = serial_sweep(&e, count, one_each, w->node, made, &orders, leaves, &leaf_count);
+  const uint made_count = serial_sweep(&e, count, one_each, w->node, made, leaves, &leaf_count);
   for (uint i = 0u; i < leaf_count; ++i) {
-    const uint at = orders.by[3][leaves[i].begin];
-    made[leaves[i].link >> 1].child[leaves[i].link & 1u] = refs[e.tie[at]];
-    deepest = max(deepest, w->depth + leaves[i].depth + FACET_HEIGHT_OF(items[w->begin + at].size));
+    __global const Item* item = &items[w->begin + place[first_lane(leaves[i].entries)]];
+    made[leaves[i].link >> 1].child[leaves[i].link & 1u] = refs[item->index];
+    deepest = max(deepest, w->depth + leaves[i].depth + FACET_HEIGHT_OF(item->size));
   }
   for (uint i = 0u; i < made_count; ++i) nodes[w->node + i] = made[i];
   return deepest;
