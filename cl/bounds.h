@@ -86,6 +86,11 @@ static inline Bounds bounds_at(__global const float4* primitives, uint rows, uin
   b.hi = is_box ? q : larger3(larger3(p, q), r);
   return b;
 }
+static inline void fetch_primitive(__global const float4* primitives, uint rows, uint i) {
+  // Its rows may lie across two lines.
+  fetch_lines(&primitives[rows * (size_t)i], sizeof(float4));
+  fetch_lines(&primitives[rows * (size_t)i + rows - 1u], sizeof(float4));
+}
 #else
 #define PRIMITIVES_ARGUMENT PRIMITIVES restrict primitives
 #define PRIMITIVE(i) primitives, i
@@ -97,6 +102,7 @@ static inline Bounds bounds_at(PRIMITIVES boxes, uint i) {
   b.hi = vec_global(boxes[i].hi);
   return b;
 }
+static inline void fetch_primitive(PRIMITIVES boxes, uint i) { fetch_lines(&boxes[i], sizeof(Box)); }
 #else
 // Three corners in a row.
 #define PRIMITIVES __global const float4*
@@ -108,7 +114,15 @@ static inline Bounds bounds_at(PRIMITIVES corners, uint i) {
   b.hi = larger3(larger3(p, q), r);
   return b;
 }
+static inline void fetch_primitive(PRIMITIVES corners, uint i) {
+  // Three corners may lie across two lines.
+  fetch_lines(&corners[3 * (size_t)i], sizeof(float4));
+  fetch_lines(&corners[3 * (size_t)i + 2], sizeof(float4));
+}
 #endif
 #endif
+
+// So many primitives ahead a CPU asks for those that it reads from all over a mesh (fetch_primitive).
+#define PRIMITIVES_AHEAD 12u
 
 #endif

@@ -41,6 +41,21 @@ static inline uint first_lane(uint lanes) { return 31u - clz(lanes & -lanes); }
 #endif
 static inline uint without_first(uint lanes) { return lanes & (lanes - 1u); }
 
+// Lane k: the lane of `v` that `at` says in its lowest three bits.
+#if defined(__AVX2__) && !defined(FACET_PORTABLE)
+static inline uint8 picked(uint8 v, uint8 at) {
+  return as_uint8(__builtin_ia32_permvarsi256(as_int8(v), as_int8(at)));
+}
+#else
+static inline uint8 picked(uint8 v, uint8 at) {
+  uint from[8], lane[8];
+  vstore8(v, 0, from);
+  vstore8(at & 7u, 0, lane);
+  return (uint8)(from[lane[0]], from[lane[1]], from[lane[2]], from[lane[3]], from[lane[4]], from[lane[5]],
+                 from[lane[6]], from[lane[7]]);
+}
+#endif
+
 // The lowest bits of `cell` at the places of the mask's bits, the lowest at the lowest.
 static inline uint deposit(uint cell, uint mask) {
 #if defined(__BMI2__) && !defined(FACET_PORTABLE)

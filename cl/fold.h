@@ -38,54 +38,49 @@ static inline Ways ways_at(__global const FoldCost* cost) {
 }
 
 // The fewest places that cost as little: lane k - 1 becomes the best of lanes 0 to k - 1, the lower one
-// of equals. Takes from the lane `by` lower, where there is one; marks the lanes that took.
-#define TAKE_FEWER(w, taken, by, SHIFTED)                                                   \
-  {                                                                                         \
-    const float8 area = (w).area.SHIFTED;                                                   \
-    const int8 takes = (area <= (w).area) & ((int8)(0, 1, 2, 3, 4, 5, 6, 7) >= (int8)(by)); \
-    (w).area = takes ? area : (w).area;                                                     \
-    (w).nodes = takes ? (w).nodes.SHIFTED : (w).nodes;                                      \
-    (w).depth = takes ? (w).depth.SHIFTED : (w).depth;                                      \
-    taken |= takes;                                                                         \
+// of equals. Takes from the lane `by` lower, where there is one; `from` says from which lane all in all.
+#define TAKE_FEWER(area, from, lane, by, SHIFTED)                         \
+  {                                                                       \
+    const int8 takes = ((area).SHIFTED <= (area)) & ((lane) >= (uint8)(by)); \
+    (area) = takes ? (area).SHIFTED : (area);                             \
+    (from) = takes ? (from).SHIFTED : (from);                             \
   }
 
 // From what the children cost to what the node does, at `cost`. No area is above FLT_MAX here, as what
 // overflows is not chosen: then each side has half of the places.
 APART void plan_node(__global const Node* nodes, uint node, Ways left, Ways right,
                      __global FoldPlan* plans, __global FoldCost* cost) {
+  const uint8 lane = (uint8)(0u, 1u, 2u, 3u, 4u, 5u, 6u, 7u);
   float left_area[WIDTH];
-  uint left_nodes[WIDTH], left_depth[WIDTH];
   vstore8(left.area, 0, left_area);
-  vstore8(left.nodes, 0, left_nodes);
-  vstore8(left.depth, 0, left_depth);
 
   // Lane k - 1: k places, shared.
-  Ways best;
-  best.area = (float8)(FLT_MAX);
-  best.nodes = left.nodes.s00011223 + right.nodes.s00112233;
-  best.depth = max(left.depth.s00011223, right.depth.s00112233);
+  float8 area = (float8)(FLT_MAX), right_area = right.area;
   uint8 share = (uint8)(0u, 1u, 1u, 2u, 2u, 3u, 3u, 4u);
   for (uint k = 1u; k < WIDTH; ++k) {
-    right.area = (float8)(FLT_MAX, right.area.s0123, right.area.s456);
-    right.nodes = right.nodes.s00123456;
-    right.depth = right.depth.s00123456;
-    const float8 area = left_area[k - 1u] + right.area;
-    const int8 is_less = area < best.area;
-    best.area = is_less ? area : best.area;
-    best.nodes = is_less ? left_nodes[k - 1u] + right.nodes : best.nodes;
-    best.depth = is_less ? max((uint8)(left_depth[k - 1u]), right.depth) : best.depth;
+    right_area = (float8)(FLT_MAX, right_area.s0123, right_area.s456);
+    const float8 both = left_area[k - 1u] + right_area;
+    const int8 is_less = both < area;
+    area = is_less ? both : area;
     share = is_less ? (uint8)(k) : share;
   }
+  const uint8 l = share - 1u, r = lane - share;
+  Ways best;
+  best.nodes = picked(left.nodes, l) + picked(right.nodes, r);
+  best.depth = max(picked(left.depth, l), picked(right.depth, r));
   const uint own = share.s7;
-  best.area.s0 = half_area(joined(side_bounds(&nodes[node], 0u), side_bounds(&nodes[node], 1u))) + best.area.s7;
+  area.s0 = half_area(joined(side_bounds(&nodes[node], 0u), side_bounds(&nodes[node], 1u))) + area.s7;
   best.nodes.s0 = 1u + best.nodes.s7;
   best.depth.s0 = 1u + best.depth.s7;
 
-  int8 has_fewer = (int8)(0);
-  TAKE_FEWER(best, has_fewer, 1, s00123456)
-  TAKE_FEWER(best, has_fewer, 2, s00012345)
-  TAKE_FEWER(best, has_fewer, 4, s00000123)
-  share = has_fewer ? (uint8)(0u) : share;
+  uint8 from = lane;
+  TAKE_FEWER(area, from, lane, 1u, s00123456)
+  TAKE_FEWER(area, from, lane, 2u, s00012345)
+  TAKE_FEWER(area, from, lane, 4u, s00000123)
+  best.area = area;
+  best.nodes = picked(best.nodes, from);
+  best.depth = picked(best.depth, from);
+  share = from < lane ? (uint8)(0u) : share;
   share.s0 = own;
   share <<= (uint8)(0u, 4u, 8u, 12u, 16u, 20u, 24u, 28u);
   const uint4 halves = share.lo | share.hi;
@@ -96,8 +91,12 @@ APART void plan_node(__global const Node* nodes, uint node, Ways left, Ways righ
   vstore8(best.depth, 0, cost->depth);
   plans[node].left = quarters.x | quarters.y;
   plans[node].nodes = best.nodes.s0;
-  const uint l = nodes[node].child[0], r = nodes[node].child[1];
-  plans[node].leaves = (l & FACET_LEAF_BIT ? 1u : plans[l].leaves) + (r & FACET_LEAF_BIT ? 1u : plans[r].leaves);
+  uint leaves = 0u;
+  for (uint side = 0u; side < 2u; ++side) {
+    const uint child = nodes[node].child[side];
+    leaves += child & FACET_LEAF_BIT ? 1u : plans[child].leaves;
+  }
+  plans[node].leaves = leaves;
 }
 
 // Writes the wide node that stands for `node`, whose place and leaves are known; names its leaves in

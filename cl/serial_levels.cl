@@ -5,9 +5,6 @@
 #include "packed.h"
 #include "radix_tree.h"
 
-// Primitives that are asked for ahead: they are read from all over the mesh.
-#define AHEAD 12u
-
 typedef struct {
   Packed box;
   uint first;   // place, or item
@@ -48,16 +45,6 @@ static inline bool is_leaf(const Subtree* l, const Subtree* r, uint end) {
            packed_cost(l->box, (float)left, r->box, (float)(size - left)));
 }
 
-static inline void fetch_primitive(PRIMITIVES primitives, uint i) {
-#ifdef FACET_OVER_BOXES
-  fetch_lines(&primitives[i], sizeof(Box));
-#else
-  // Three corners may lie across two lines.
-  fetch_lines(&primitives[3u * (size_t)i], sizeof(float4));
-  fetch_lines(&primitives[3u * (size_t)i + 2u], sizeof(float4));
-#endif
-}
-
 // As merge_subtrees of cl/levels.cl, `each` subtrees a work-item.
 __kernel void merge_subtrees(PRIMITIVES restrict primitives, __global const uint* codes, __global const uint* starts,
                              __global const uint* order, __global Node* nodes, __global Item* items,
@@ -71,7 +58,7 @@ __kernel void merge_subtrees(PRIMITIVES restrict primitives, __global const uint
     uint top = 0u, made_count = 0u, before = 0u;
     Packed all = no_packed();
     for (uint i = first; i < next; ++i) {
-      if (i + AHEAD < count) fetch_primitive(primitives, order[i + AHEAD]);
+      if (i + PRIMITIVES_AHEAD < count) fetch_primitive(primitives, order[i + PRIMITIVES_AHEAD]);
       Subtree* pushed = &stack[top++];
       pushed->box = packed(bounds_at(primitives, order[i]));
       pushed->first = i, pushed->before = before, pushed->made = made_count;

@@ -83,10 +83,9 @@ typedef struct {
 } SerialSplit;
 
 // Along an axis, of the entries at the first i + 1 places the box and what they count, and the box of those from
-// place i on; `sides` are the boxes' own, less than 0.
+// place i on.
 typedef struct {
   Packed left[32], right[33];
-  float4 left_sides[32], right_sides[33];
   uint weight[32];
 } Splits;
 
@@ -98,17 +97,19 @@ static inline void list_splits(const Entries* e, const uchar* entry, uint places
     from_left = without_first(from_left);
     from_right ^= 1u << last;
     s->left[i] = left = joined_packed(e->box[l], left);
-    s->left_sides[i] = left.lo + left.hi;
     s->weight[i] = weight += e->weight[l];
     s->right[count - 1u - i] = right = joined_packed(e->box[r], right);
-    s->right_sides[count - 1u - i] = right.lo + right.hi;
   }
 }
 
+// Of two boxes the sides, less than 0.
+static inline float8 two_sides(Packed a, Packed b) { return (float8)(a.lo + a.hi, b.lo + b.hi); }
+
 // What splits 4 k to 4 k + 3 cost, as packed_cost has it, of `count`; split i has i + 1 entries on the left.
 static inline float4 costs_of(const Splits* s, uint k, uint count, uint block_bit) {
-  const float4 *l = s->left_sides + 4u * k, *r = s->right_sides + 4u * k + 1u;
-  const float8 a = (float8)(l[0], r[0]), b = (float8)(l[1], r[1]), c = (float8)(l[2], r[2]), d = (float8)(l[3], r[3]);
+  const Packed *l = s->left + 4u * k, *r = s->right + 4u * k + 1u;
+  const float8 a = two_sides(l[0], r[0]), b = two_sides(l[1], r[1]), c = two_sides(l[2], r[2]),
+               d = two_sides(l[3], r[3]);
   // Four boxes on the left, and four on the right.
   const float8 xy0 = (float8)(a.s0, b.s0, a.s1, b.s1, a.s4, b.s4, a.s5, b.s5),
                xy1 = (float8)(c.s0, d.s0, c.s1, d.s1, c.s4, d.s4, c.s5, d.s5),
@@ -121,7 +122,7 @@ static inline float4 costs_of(const Splits* s, uint k, uint count, uint block_bi
   const float4 cost = areas.lo * rounded_tests(left, block_bit) +
                       areas.hi * rounded_tests(s->weight[count] - left, block_bit);
   const int4 is_split = (uint4)(4u * k) + (uint4)(0, 1, 2, 3) < (uint4)(count);
-  return is_split & (cost < INFINITY) ? cost : (float4)(INFINITY);
+  return (is_split & (cost < INFINITY)) ? cost : (float4)(INFINITY);
 }
 
 static inline SerialSplit best_serial_split(const Entries* e, const Orders* o, const Segment* of, uint block_bit) {

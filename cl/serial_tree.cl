@@ -10,6 +10,7 @@ __kernel void build_bottoms(PRIMITIVES_ARGUMENT, __global const uint* starts, __
                             uint leaf_sure, uint leaf_most, uint leaf_block_bit) {
   const LeafRule rule = {leaf_sure, leaf_most, leaf_block_bit};
   const uint begin = (uint)get_global_id(0) * each, end = min(begin + each, subtrees);
+  const uint beyond = begin < end ? starts[end] : 0u;  // other work-items' order
   for (uint k = begin; k < end; ++k) {
     const uint first = starts[k], count = starts[k + 1u] - first;
     Entries e;
@@ -17,6 +18,8 @@ __kernel void build_bottoms(PRIMITIVES_ARGUMENT, __global const uint* starts, __
     Packed all = no_packed();
     begin_entries(&e);
     for (uint i = 0u; i < count; ++i) {
+      const uint ahead = first + i + PRIMITIVES_AHEAD;
+      if (ahead < beyond) fetch_primitive(PRIMITIVE(order[ahead]));
       primitive[i] = order[first + i];
       put_entry(&e, i, bounds_at(PRIMITIVE(primitive[i])), 1u);
       all = joined_packed(e.box[i], all);
@@ -46,19 +49,12 @@ __kernel void build_bottoms(PRIMITIVES_ARGUMENT, __global const uint* starts, __
   }
 }
 
-// A range of items that waits to be split.
-typedef struct {
-  uint begin, end, node, depth;
-  float lo[3], hi[3];  // where bins lie for doubled centres
-  uint first, last;    // between these are its items' indices
-} Waiting;
-
 typedef struct {
   Packed box[3][BINS];
   uint weight[3][BINS], items[3][BINS];
 } Bins;
 
-static inline void serial_bins(__global const Item* items, const Waiting* w, Bins* bins) {
+static inline void serial_bins(__global const Item* items, const TopRange* w, Bins* bins) {
   for (uint axis = 0u; axis < 3u; ++axis)
     for (uint k = 0u; k < BINS; ++k) {
       bins->box[axis][k] = no_packed();
@@ -109,7 +105,7 @@ static inline SerialSplit best_bins(const Bins* bins) {
 }
 
 // Moves a range's items so that those on the left come first; tells of both sides' boxes.
-static inline uint part_items(__global Item* items, const Waiting* w, uint axis, uint bin, Packed box[2]) {
+static inline uint part_items(__global Item* items, const TopRange* w, uint axis, uint bin, Packed box[2]) {
   box[0] = box[1] = no_packed();
   uint next = w->begin, end = w->end;
   while (next < end) {
@@ -130,7 +126,7 @@ static inline uint part_items(__global Item* items, const Waiting* w, uint axis,
 }
 
 // A small range's tree; returns the deepest leaf's depth.
-static inline uint finish_range(__global const Item* items, const Waiting* w, __global Node* nodes,
+static inline uint finish_range(__global const Item* items, const TopRange* w, __global Node* nodes,
                                 __global const uint* refs) {
   const uint count = w->end - w->begin;
   // Entries come in the order of indices, which breaks ties.
@@ -160,60 +156,109 @@ static inline uint finish_range(__global const Item* items, const Waiting* w, __
   return deepest;
 }
 
-// As cl/top.cl, over count > 1 items; counter[1]: the deepest leaf.
-__kernel void build_top(__global Item* items, __global const Curve* curve, __global Node* nodes,
-                        __global const uint* refs, __global uint* counter, uint count) {
+// Splits a range of more than SWEEP_MOST items, as cl/top.cl does. Returns how many ranges of two items and more
+// it leaves, in side[]: the range itself, where its items' indices alone are fewer now.
+static inline uint split_range(__global Item* items, const TopRange* w, __global Node* nodes,
+                               __global const uint* refs, TopRange side[2], uint* deepest) {
+  SerialSplit split;
+  split.axis = SPLIT_BY_INDEX;
+  if (w->depth < TOP_SWEPT_DEPTH) {
+    Bins bins;
+    serial_bins(items, w, &bins);
+    split = best_bins(&bins);
+  }
+  if (split.axis == SPLIT_BY_INDEX) split.left = middle_index(w->first, w->last);
+  Packed box[2];
+  const uint middle = part_items(items, w, split.axis, split.left, box);
+  side[0] = side[1] = *w;
+  if (middle == w->begin || middle == w->end) {
+    if (middle == w->begin) side[0].first = split.left + 1u;
+    else side[0].last = split.left;
+    return 1u;
+  }
+  const uint at = w->node, depth = w->depth + 1u;
+  side[0].end = middle, side[0].node = at + 1u;
+  side[1].begin = middle, side[1].node = at + (middle - w->begin);
+  uint left = 0u;
+  Node n;
+  for (uint k = 0u; k < 2u; ++k) {
+    TopRange s = side[k];
+    put_packed(&n, k, box[k]);
+    n.spare[k] = 0u;
+    s.depth = depth;
+    s.lo[0] = 2.0f * box[k].s0, s.lo[1] = 2.0f * box[k].s1, s.lo[2] = 2.0f * box[k].s2;
+    s.hi[0] = -2.0f * box[k].s4, s.hi[1] = -2.0f * box[k].s5, s.hi[2] = -2.0f * box[k].s6;
+    if (s.end - s.begin == 1u) {
+      n.child[k] = refs[items[s.begin].index];
+      *deepest = max(*deepest, depth + FACET_HEIGHT_OF(items[s.begin].size));
+    } else {
+      n.child[k] = s.node;
+      side[left++] = s;
+    }
+  }
+  nodes[at] = n;
+  return left;
+}
+
+static inline uint finish_top(__global Item* items, const TopRange* range, __global Node* nodes,
+                              __global const uint* refs) {
   // Of the ranges that wait, one is left by each level at most: depths are below TOP_SWEPT_DEPTH + 32.
-  Waiting stack[TOP_SWEPT_DEPTH + 34u];
+  TopRange stack[TOP_SWEPT_DEPTH + 34u];
   uint top = 0u, deepest = 0u;
-  Waiting all;
-  all.begin = 0u, all.end = count, all.node = 0u, all.depth = 0u;
-  for (uint a = 0u; a < 3u; ++a) all.lo[a] = curve->lo[a], all.hi[a] = curve->hi[a];
-  all.first = 0u, all.last = count - 1u;
-  stack[top++] = all;
+  stack[top++] = *range;
   while (top > 0u) {
-    const Waiting w = stack[--top];
+    const TopRange w = stack[--top];
     if (w.end - w.begin <= SWEEP_MOST) {
       deepest = max(deepest, finish_range(items, &w, nodes, refs));
       continue;
     }
-    SerialSplit split;
-    split.axis = SPLIT_BY_INDEX;
-    if (w.depth < TOP_SWEPT_DEPTH) {
-      Bins bins;
-      serial_bins(items, &w, &bins);
-      split = best_bins(&bins);
-    }
-    if (split.axis == SPLIT_BY_INDEX) split.left = middle_index(w.first, w.last);
-    Packed box[2];
-    const uint middle = part_items(items, &w, split.axis, split.left, box);
-    if (middle == w.begin || middle == w.end) {
-      Waiting same = w;
-      if (middle == w.begin) same.first = split.left + 1u;
-      else same.last = split.left;
-      stack[top++] = same;
-      continue;
-    }
-    Waiting side[2] = {w, w};
-    side[0].end = middle, side[0].node = w.node + 1u;
-    side[1].begin = middle, side[1].node = w.node + (middle - w.begin);
-    Node n;
-    for (uint k = 0u; k < 2u; ++k) {
-      put_packed(&n, k, box[k]);
-      side[k].depth = w.depth + 1u;
-      side[k].lo[0] = 2.0f * box[k].s0, side[k].lo[1] = 2.0f * box[k].s1, side[k].lo[2] = 2.0f * box[k].s2;
-      side[k].hi[0] = -2.0f * box[k].s4, side[k].hi[1] = -2.0f * box[k].s5, side[k].hi[2] = -2.0f * box[k].s6;
-      n.spare[k] = 0u;
-      if (side[k].end - side[k].begin == 1u) {
-        n.child[k] = refs[items[side[k].begin].index];
-        deepest = max(deepest, side[k].depth + FACET_HEIGHT_OF(items[side[k].begin].size));
-      } else {
-        n.child[k] = side[k].node;
-      }
-    }
-    nodes[w.node] = n;
-    for (uint k = 2u; k-- > 0u;)
-      if (side[k].end - side[k].begin > 1u) stack[top++] = side[k];
+    TopRange side[2];
+    for (uint left = split_range(items, &w, nodes, refs, side, &deepest); left > 0u; --left)
+      stack[top++] = side[left - 1u];
   }
-  counter[1] = deepest;
+  return deepest;
+}
+
+// Smaller ranges are not shared out.
+#define SHARED_ITEMS (2u * SWEEP_MOST)
+
+// Splits the largest range until there are `open`, or none is large.
+static inline uint open_top(__global Item* items, __global const Curve* curve, __global Node* nodes,
+                            __global const uint* refs, __global TopRange* ranges, uint count, uint open,
+                            uint* deepest) {
+  TopRange all;
+  all.begin = 0u, all.end = count, all.node = 0u, all.depth = 0u;
+  for (uint a = 0u; a < 3u; ++a) all.lo[a] = curve->lo[a], all.hi[a] = curve->hi[a];
+  all.first = 0u, all.last = count - 1u;
+  all.buffer = all.spare[0] = all.spare[1] = all.spare[2] = 0u;
+  ranges[0] = all;
+  uint found = 1u;
+  while (found > 0u && found < open) {
+    uint largest = 0u;
+    for (uint i = 1u; i < found; ++i)
+      if (ranges[i].end - ranges[i].begin > ranges[largest].end - ranges[largest].begin) largest = i;
+    const TopRange w = ranges[largest];
+    if (w.end - w.begin < SHARED_ITEMS) break;
+    TopRange side[2];
+    const uint left = split_range(items, &w, nodes, refs, side, deepest);
+    ranges[largest] = left > 0u ? side[0] : ranges[--found];
+    if (left > 1u) ranges[found++] = side[1];
+  }
+  return found;
+}
+
+// As cl/top.cl, over count > 1 items: in the first step one work-item finds up to `open` ranges, then each has one.
+// counter[0]: the ranges; counter[1]: the deepest leaf.
+__kernel void build_top(__global Item* items, __global const Curve* curve, __global Node* nodes,
+                        __global const uint* refs, __global TopRange* ranges, volatile __global uint* counter,
+                        uint count, uint open, uint step) {
+  const uint i = (uint)get_global_id(0);
+  uint deepest = 0u;
+  if (step == 0u) {
+    counter[0] = open_top(items, curve, nodes, refs, ranges, count, open, &deepest);
+    counter[1] = deepest;
+  } else if (i < counter[0]) {
+    const TopRange own = ranges[i];
+    atomic_max(&counter[1], finish_top(items, &own, nodes, refs));
+  }
 }

@@ -42,6 +42,7 @@ top_tree::top_tree(const runtime::queue& q, const runtime::source_tree& kernels,
     : queue_(q),
       is_serial_(t.serial_trees),
       split_group_(t.split_group),
+      open_(4 * std::uint32_t(q.get_device().max_compute_units())),
       program_(is_serial_
                    ? compiled(q, kernels, serial_file, t.flags())
                    : compiled(q, kernels, "top.cl",
@@ -102,15 +103,18 @@ std::uint32_t top_tree::told(std::uint32_t counter) {
 std::uint32_t top_tree::build_serial(runtime::buffer<Curve>& curve, tree_parts& parts,
                                      std::uint32_t count, std::vector<step>& steps) {
   hold(counters_, 2);
-  steps.push_back({"build_top", queue_.submit([&](runtime::handler& h) {
-                     const runtime::accessor items{parts.items, h, runtime::read_write};
-                     const runtime::accessor along{curve, h, runtime::read_only};
-                     const runtime::accessor nodes{parts.nodes, h, runtime::read_write};
-                     const runtime::accessor refs{parts.refs, h, runtime::read_only};
-                     const runtime::accessor counter{counters_, h, runtime::write_only};
-                     h.set_args(items, along, nodes, refs, counter, count);
-                     h.parallel_for(in_groups(1, 1), *serial_);
-                   })});
+  hold(ranges_[0], open_);
+  for (std::uint32_t step = 0; step < 2; ++step)
+    steps.push_back({"build_top", queue_.submit([&](runtime::handler& h) {
+                       const runtime::accessor items{parts.items, h, runtime::read_write};
+                       const runtime::accessor along{curve, h, runtime::read_only};
+                       const runtime::accessor nodes{parts.nodes, h, runtime::read_write};
+                       const runtime::accessor refs{parts.refs, h, runtime::read_only};
+                       const runtime::accessor ranges{ranges_[0], h, runtime::read_write};
+                       const runtime::accessor counter{counters_, h, runtime::read_write};
+                       h.set_args(items, along, nodes, refs, ranges, counter, count, open_, step);
+                       h.parallel_for(in_groups(step == 0 ? 1 : open_, 1), *serial_);
+                     })});
   return told(1);
 }
 

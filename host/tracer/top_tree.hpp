@@ -39,6 +39,7 @@ class top_tree {
   runtime::queue queue_;
   bool is_serial_;
   std::uint32_t split_group_;
+  std::uint32_t open_;  ///< ranges that a CPU's cores are to share
   runtime::program program_;
   std::optional<runtime::kernel> serial_, start_, bin_, move_, list_, split_, finish_;
   runtime::buffer<std::uint32_t> counters_{1};
