@@ -11,6 +11,7 @@
 #include "reference/tracer.hpp"
 #include "runtime/runtime.hpp"
 #include "scene/load.hpp"
+#include "scene/placed.hpp"
 #include "study/explain.hpp"
 #include "study/statistics.hpp"
 #include "tracer/tracer.hpp"
@@ -37,7 +38,7 @@ json told(const study::explanation& e) {
 }
 
 json measure(const std::string& path, runtime::queue& queue, const settings& o) {
-  const scene s = load_scene(path);
+  const scene s = placed(load_scene(path));
   const std::uint32_t width = o.width ? o.width : s.width;
   const std::uint32_t height = height_for(s, width);
   const reference::tracer<float> single(s);

@@ -12,6 +12,7 @@
 #include "bench/workload.hpp"
 #include "runtime/runtime.hpp"
 #include "scene/load.hpp"
+#include "scene/placed.hpp"
 #include "scene/read_obj.hpp"
 #include "study/picture_errors.hpp"
 #include "study/picture_rays.hpp"
@@ -194,10 +195,10 @@ void run(settings o) {
       "in milliseconds; pixels that are not the first way's\n");
   bool are_same = true;
   for (const std::string& path : o.scenes)
-    are_same &= measure(load_scene(path), name_of(path), queue, o, report["results"]);
+    are_same &= measure(placed(load_scene(path)), name_of(path), queue, o, report["results"]);
   for (const std::string& path : o.meshes)
-    are_same &= measure(study::still_life(read_obj(path).mesh), "still life: " + name_of(path),
-                        queue, o, report["results"]);
+    are_same &= measure(placed(study::still_life(read_obj(path).mesh)),
+                        "still life: " + name_of(path), queue, o, report["results"]);
   if (!o.json.empty()) write_result(o.json, report);
   if (!are_same) throw std::runtime_error("ways to make one picture differ: see above");
 }

@@ -13,6 +13,7 @@
 #include "cli/variants_table.hpp"
 #include "image/output.hpp"
 #include "scene/nearest.hpp"
+#include "scene/placed.hpp"
 #include "study/variant_json.hpp"
 #include "study/variant_run.hpp"
 
@@ -89,7 +90,7 @@ int run_accuracy_variants(const variants_request& r, const console& say) {
       throw usage_error("--json would overwrite the scene, " + r.scene);
     image::check_output(r.json);
   }
-  const scene s = picture_of_word(r.scene);
+  const scene s = placed(picture_of_word(r.scene));
   const variants all = study::variant_list(s.max_depth);
   variants list = chosen(r, all);
   const runtime::device device = choose_device(r.device, say);

@@ -9,6 +9,7 @@
 #include "cli/mesh_word.hpp"
 #include "cli/options.hpp"
 #include "image/output.hpp"
+#include "scene/placed.hpp"
 #include "scene/world_bounds.hpp"
 #include "study/tree_makers.hpp"
 #include "tracer/features.hpp"
@@ -56,7 +57,6 @@ void print_rest(std::size_t count) {
 }
 
 void print(const scene& s) {
-  const std::uint64_t placed = s.placed_triangle_count();
   const box3d box = world_box<double>(s);
   std::printf("scene       %s\n", s.name.c_str());
   std::printf("picture     %ux%u, depth %u, %u %s a pixel\n", s.width, s.height, s.max_depth,
@@ -64,17 +64,21 @@ void print(const scene& s) {
   std::printf("triangles   %zu in %zu %s\n", s.triangle_count(), s.meshes.size(),
               s.meshes.size() == 1 ? "mesh" : "meshes");
   std::printf("instances   %zu, which show %llu triangles\n", s.instances.size(),
-              static_cast<unsigned long long>(placed));
+              static_cast<unsigned long long>(s.placed_triangle_count()));
   std::printf("lights      %zu\n", s.lights.size());
   if (box.empty())
     std::printf("bounds      none: nothing is placed\n");
   else
     std::printf("bounds      (%g, %g, %g) to (%g, %g, %g)\n", box.lo.x, box.lo.y, box.lo.z,
                 box.hi.x, box.hi.y, box.hi.z);
-  std::printf("features    %s\n", tracer::features::of(s).names().c_str());
+  const scene traced = placed(s);
+  if (traced.around_camera)
+    std::printf("traced      as one mesh of %zu triangles, which stand in the world\n",
+                traced.triangle_count());
+  std::printf("features    %s\n", tracer::features::of(traced).names().c_str());
   std::printf("memory      %s on the host, about %s on a device; a picture of %s\n",
               bytes_text(double(host_bytes(s))).c_str(),
-              bytes_text(double(device_bytes(s))).c_str(),
+              bytes_text(double(device_bytes(traced))).c_str(),
               bytes_text(16.0 * s.width * s.height).c_str());
   std::printf("meshes      %zu\n", s.meshes.size());
   for (std::size_t i = 0; i < s.meshes.size() && i < shown; ++i) {

@@ -18,6 +18,7 @@
 #include "image/output.hpp"
 #include "reference/tracer.hpp"
 #include "scene/load.hpp"
+#include "scene/placed.hpp"
 #include "tracer/stopwatch.hpp"
 
 namespace facet::cli {
@@ -145,7 +146,7 @@ int run(const arguments& o) {
         "--work-group is that of the kernel for whole pixels, which --split on does not use; leave "
         "one of them out");
   check_outputs(o);
-  const scene s = load_scene(o.scene);
+  const scene s = placed(load_scene(o.scene));
   o.say.notes(s.notes);
   stop_if_interrupted("reading the scene");
   const picture_shape p = shape_of(o, s);

@@ -7,6 +7,7 @@
 #include "cli/mesh_word.hpp"
 #include "cli/picture_size.hpp"
 #include "scene/framing.hpp"
+#include "scene/placed.hpp"
 
 namespace facet::cli {
 namespace {
@@ -62,7 +63,7 @@ void add_without_tree(sweep_plan& p, const sweep_request& r, size full, const bu
 }
 
 scene larger_scene(const sweep_request& r, const console& say) {
-  scene s = picture_of_word(r.large.empty() ? "terrain:500" : r.large);
+  scene s = placed(picture_of_word(r.large.empty() ? "terrain:500" : r.large));
   if (!r.large.empty()) {
     say.notes(s.notes);
     return s;
@@ -81,7 +82,7 @@ const std::vector<std::string>& sweep_experiments() {
 
 std::unique_ptr<sweep_plan> plan_sweep(const sweep_request& r, bool on_gpu, const console& say) {
   auto p = std::make_unique<sweep_plan>();
-  p->given = picture_of_word(r.scene);
+  p->given = placed(picture_of_word(r.scene));
   say.notes(p->given.notes);
   const scene& s = p->given;
   const budget& b = on_gpu ? gpu_budget : other_budget;

@@ -18,6 +18,7 @@
 #include "cli/tuning_file.hpp"
 #include "image/output.hpp"
 #include "scene/nearest.hpp"
+#include "scene/placed.hpp"
 #include "study/tunables.hpp"
 #include "study/tuning_json.hpp"
 #include "study/tuning_run.hpp"
@@ -66,7 +67,7 @@ std::vector<study::tuning_scene> scenes_of(const arguments& o, std::uint32_t wid
   std::vector<study::tuning_scene> all;
   for (const std::string& word : o.scenes) {
     study::tuning_scene& s = all.emplace_back();
-    s.what = picture_of_word(word);
+    s.what = placed(picture_of_word(word));
     s.what.name = word;
     o.say.notes(s.what.notes);
     const size picture = picture_size({width, 0}, {s.what.width, s.what.height});

@@ -39,7 +39,7 @@ struct tracer<T>::state {
   std::vector<std::uint32_t> around_camera;  ///< innermost first
 
   explicit state(const scene& s)
-      : source(s), world(s), light(s, world), around_camera(media_at(s, s.view.position)) {}
+      : source(s), world(s), light(s, world), around_camera(media_around_camera(s)) {}
 
   /// Along one eye ray of a film, which need not be that of the scene's camera.
   auto trace(const film<T>& f, T x, T y, std::uint32_t max_depth, road by) const {

@@ -76,6 +76,10 @@ std::vector<std::uint32_t> media_at(const scene& s, vec3d p) {
   return materials;
 }
 
+std::vector<std::uint32_t> media_around_camera(const scene& s) {
+  return s.around_camera ? *s.around_camera : media_at(s, s.view.position);
+}
+
 void check_camera_media(const scene& s, const std::vector<std::uint32_t>& media) {
   if (media.size() <= s.nesting) return;
   std::string names;

@@ -19,6 +19,9 @@ std::vector<double> winding_numbers(const mesh& m, std::size_t material_count, v
 /// looked at, triangle by triangle. An object is what one instance shows of one material.
 std::vector<std::uint32_t> media_at(const scene& s, vec3d p);
 
+/// Those around the scene's camera.
+std::vector<std::uint32_t> media_around_camera(const scene& s);
+
 /// Throws scene_error if the camera lies in more of them than `s.nesting` allows.
 void check_camera_media(const scene& s, const std::vector<std::uint32_t>& media);
 

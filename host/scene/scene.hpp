@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -79,6 +80,9 @@ struct scene {
   std::vector<facet::mesh> meshes;
   std::vector<instance> instances;
   std::vector<light> lights;
+  /// The materials of the transparent objects around the camera, innermost first, where the meshes
+  /// do not tell them any more (placed.hpp).
+  std::optional<std::vector<std::uint32_t>> around_camera;
   std::vector<std::string> notes;  ///< what the reader made up, dropped or ignored: tell the user
 
   std::size_t triangle_count() const {

@@ -8,6 +8,7 @@
 #include "scene/framing.hpp"
 #include "scene/generate.hpp"
 #include "scene/load.hpp"
+#include "scene/placed.hpp"
 #include "scene/world_bounds.hpp"
 #include "study/still_life.hpp"
 #include "tracer/features.hpp"
@@ -87,8 +88,9 @@ std::vector<tuning_scene> tuning_scenes(std::uint32_t width, bool is_quick) {
       {near_view("knot", "torus_knot", {{"segments", segments}, {"sides", sides}, {"smooth", 1}}),
        width, height, true, true});
   all.push_back({near_view("hills", "terrain", {{"n", n}}), width, height, true, false});
-  all.push_back({still_life(generate("torus_knot", {{"segments", segments}, {"sides", sides}})),
-                 width, height, false, true});
+  all.push_back(
+      {placed(still_life(generate("torus_knot", {{"segments", segments}, {"sides", sides}}))),
+       width, height, false, true});
   return all;
 }
 

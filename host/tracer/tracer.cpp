@@ -133,10 +133,10 @@ device_scene::device_scene(runtime::queue queue, const scene& s, options o,
 
   const std::uint64_t peak = context.peak_memory() - before;
   scene model = o.movable ? s : without_meshes(s);
-  state_ = std::make_unique<state>(state{
-      queue, std::move(o), tuned, used, in_images, in_packets, refills, std::move(kernels),
-      std::move(model), media_at(s, s.view.position), std::move(geometry), peak, std::move(lights),
-      runtime::buffer<Faults>(1), std::nullopt, std::nullopt, std::nullopt, std::nullopt, 0});
+  state_ = std::make_unique<state>(
+      state{queue, std::move(o), tuned, used, in_images, in_packets, refills, std::move(kernels),
+            std::move(model), media_around_camera(s), std::move(geometry), peak, std::move(lights),
+            runtime::buffer<Faults>(1), std::nullopt, std::nullopt, std::nullopt, std::nullopt, 0});
 }
 
 device_scene::~device_scene() = default;
@@ -227,7 +227,7 @@ void device_scene::state::forget_programs() {
 }
 
 const std::vector<std::uint32_t>& device_scene::state::media() {
-  if (!camera_media) camera_media = media_at(model, model.view.position);
+  if (!camera_media) camera_media = media_around_camera(model);
   return *camera_media;
 }
 

@@ -30,6 +30,7 @@ TEST_CASE("info counts triangles, instances and lights, and names what materials
   CHECK(o.err == "");
   CHECK(contains(o.out, "picture     48x32, depth 3, 1 sample a pixel"));
   CHECK(contains(o.out, "instances   2"));
+  CHECK(contains(o.out, "traced      as one mesh of "));
   CHECK(contains(o.out, "lights      1"));
   CHECK(contains(o.out, "reflection"));
   CHECK(contains(o.out, "320 triangles, smooth"));  // 20 * 4^2

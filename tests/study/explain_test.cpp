@@ -8,6 +8,7 @@
 
 #include "runtime/runtime.hpp"
 #include "scene/load.hpp"
+#include "scene/placed.hpp"
 #include "tracer/tracer.hpp"
 
 using namespace facet;
@@ -73,7 +74,7 @@ TEST_CASE("every scene: at most 0.1% of the pixels are off by more than 1/255, e
     if (file.path().extension() != ".json" || path.find("schema") != std::string::npos) continue;
     CAPTURE(path);
     ++scenes;
-    const scene s = load_scene(file.path());
+    const scene s = placed(load_scene(file.path()));
     const std::uint32_t width = 240, height = std::max(1u, 240 * s.height / s.width);
     const reference::tracer<float> oracle(s);
     const picture expected = oracle.render(width, height, s.max_depth);
@@ -83,4 +84,24 @@ TEST_CASE("every scene: at most 0.1% of the pixels are off by more than 1/255, e
     CHECK(e.unexplained() == 0);
   }
   CHECK(scenes >= 4);
+}
+
+// Corners that are rounded in the world move edges by about 2^-24 of the picture, as rays that are
+// rounded do.
+TEST_CASE("a scene's picture is that of its instances, but at edges") {
+  const char* name = std::getenv("FACET_TEST_DEVICE");
+  runtime::queue q{runtime::select_device(name ? name : "0")};
+  for (const char* file : {"nested_glass.json", "showcase.json"}) {
+    CAPTURE(file);
+    const scene s = load_scene(std::filesystem::path(FACET_SOURCE_DIR "/scenes") / file);
+    const scene moved = placed(s);
+    REQUIRE(moved.instances.size() < s.instances.size());
+    const std::uint32_t width = 160, height = 160 * s.height / s.width;
+    const reference::tracer<float> oracle(s);
+    const picture expected = oracle.render(width, height, s.max_depth);
+    const picture found = tracer::device_scene(q, moved).render(width, height, s.max_depth);
+    const auto e = study::explain(s, oracle, expected, found, s.max_depth);
+    CHECK(e.off.size() * 1000 <= e.pixels);
+    CHECK(e.unexplained() == 0);
+  }
 }
