@@ -52,7 +52,7 @@ static inline void visit_node(const Scene* s, const Space* space, float tmin, fl
   Each near, far;
 #ifdef FACET_NO_INSTANCES
   // Among instances there are not the registers for it.
-  if (mode == FACET_CLOSEST)
+  if (mode != FACET_ANY)
     child_intervals_by_parts(space->slabs, w->parts, n->x[0], tmin, best, &near, &far);
   else
 #endif
@@ -72,7 +72,7 @@ static inline bool meet_leaf(const Scene* s, GEOMETRY positions, Space* space, c
   const uint slot = FACET_LEAF_FIRST(leaf), count = FACET_LEAF_COUNT(leaf);
 #ifdef FACET_NO_INSTANCES
   // So that no register holds it on the way down: triangles hardly ever need it.
-  if (mode == FACET_CLOSEST) space->slabs.inverse = w->parts.above + w->parts.below;
+  if (mode != FACET_ANY) space->slabs.inverse = w->parts.above + w->parts.below;
 #endif
   for (uint k = 0; k < count; ++k)
     if (meet_triangles(s, positions, space, w->place, w->outer, slot + k, tmin, mode, q)) return true;
@@ -175,7 +175,7 @@ static inline void step_any(const Scene* s, GEOMETRY positions, float tmin, uint
 static inline void step(const Scene* s, GEOMETRY positions, float3 o, float3 d, float tmin, uint mode,
                         Space* space, Query* q, Walk* w, uint* waiting, float* near_of) {
 #ifdef FACET_NO_INSTANCES
-  if (mode != FACET_CLOSEST) {
+  if (mode == FACET_ANY) {
     step_any(s, positions, tmin, mode, space, q, w, waiting);
     return;
   }

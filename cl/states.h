@@ -153,33 +153,23 @@ static inline float4 radiance(const Scene* s, GEOMETRY positions, GEOMETRY norma
                               float3 direction) {
   PendingRay pending[FACET_RAY_STACK];
   Path p = path_of(view, direction);
-  Query q;
-  State state = TRACE;
-  while (state != DONE) {
-    switch (state) {
-      case TRACE:
-        q = traverse(s, positions, p.ray.origin, p.ray.direction, 0.0f, INFINITY, FACET_CLOSEST);
-        state = q.triangle == FACET_NONE ? ESCAPE : SHADE;
-        break;
-      case ESCAPE:
-        escape(&p, view);
-        state = RESUME;
-        break;
-      case SHADE: {
-        const Surface f = arrive(s, positions, normals, &q, &p.ray);
-        __global const Material* m = &s->materials[f.material];
-        float3 lit = unlit(view, m);
-        for (uint i = 0; i < view->light_count; ++i)
-          lit = lit + lit_from(s, positions, &lights[i], &f, m, p.ray.direction, p.ray.media);
-        p.sum = p.sum + p.ray.throughput * lit;
-        state = branch(s, &f, m, &p.ray, pending, &p.count, view->max_depth);
-        break;
-      }
-      case RESUME:
-      default:
-        state = resume(&p, pending);
-        break;
+  // One turn takes each pixel of a warp from one ray to its next, so that all trace at once: a turn for each
+  // state would have some trace while others shade.
+  for (State state = TRACE; state != DONE;) {
+    const Query q = traverse(s, positions, p.ray.origin, p.ray.direction, 0.0f, INFINITY, FACET_CLOSEST);
+    if (q.triangle == FACET_NONE) {
+      escape(&p, view);
+      state = RESUME;
+    } else {
+      const Surface f = arrive(s, positions, normals, &q, &p.ray);
+      __global const Material* m = &s->materials[f.material];
+      float3 lit = unlit(view, m);
+      for (uint i = 0; i < view->light_count; ++i)
+        lit = lit + lit_from(s, positions, &lights[i], &f, m, p.ray.direction, p.ray.media);
+      p.sum = p.sum + p.ray.throughput * lit;
+      state = branch(s, &f, m, &p.ray, pending, &p.count, view->max_depth);
     }
+    if (state == RESUME) state = resume(&p, pending);
   }
   return (float4)(p.sum, p.alpha);
 }

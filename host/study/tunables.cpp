@@ -11,7 +11,7 @@ using values = std::vector<choices>;
 
 bool is_by_packets(const choices& c) { return c.wide_layout && c.packets; }
 bool is_by_several_kernels(const choices& c, const tuning_workload& w) {
-  return w.is_picture && w.has_followers && c.split_render;
+  return w.is_picture && w.grows_trees && c.split_render;
 }
 
 // layout, with where triangles are read from, and whether by packets, since one asks for another.
@@ -89,7 +89,7 @@ values leaves(const choices& so_far, const runtime::device&) {
 
 bool to_all(const choices&, const tuning_workload&) { return true; }
 bool to_branching_pictures(const choices&, const tuning_workload& w) {
-  return w.is_picture && w.has_followers;
+  return w.is_picture && w.grows_trees;
 }
 bool to_packets(const choices& c, const tuning_workload& w) {
   return is_by_packets(c) && !is_by_several_kernels(c, w);
@@ -99,9 +99,6 @@ bool to_rays_alone(const choices& c, const tuning_workload& w) {
 }
 bool to_whole_pixels(const choices& c, const tuning_workload& w) {
   return w.is_picture && !is_by_packets(c) && !is_by_several_kernels(c, w);
-}
-bool to_capped_kernels(const choices& c, const tuning_workload& w) {
-  return !w.is_picture || is_by_several_kernels(c, w);
 }
 bool to_narrow(const choices& c, const tuning_workload&) { return !c.wide_layout; }
 
@@ -132,7 +129,7 @@ const tunable all_tunables[] = {
     {"render_group", "work-items a group of the kernel for whole pixels", render_groups,
      to_whole_pixels, by_events, render_group_text},
     {"registers", "the most that NVIDIA's compiler gives a work-item; 0: as many as it likes",
-     registers, to_capped_kernels, by_events, registers_text},
+     registers, to_all, by_events, registers_text},
     {"leaves", "triangles that are a leaf at once, and those that it has at most (narrow layout)",
      leaves, to_narrow, by_events, leaves_text},
 };

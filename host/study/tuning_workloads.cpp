@@ -88,9 +88,10 @@ std::vector<tuning_scene> tuning_scenes(std::uint32_t width, bool is_quick) {
       {near_view("knot", "torus_knot", {{"segments", segments}, {"sides", sides}, {"smooth", 1}}),
        width, height, true, true});
   all.push_back({near_view("hills", "terrain", {{"n", n}}), width, height, true, false});
-  all.push_back(
-      {placed(still_life(generate("torus_knot", {{"segments", segments}, {"sides", sides}}))),
-       width, height, false, true});
+  scene deep =
+      placed(still_life(generate("torus_knot", {{"segments", segments}, {"sides", sides}})));
+  deep.max_depth = 8;
+  all.push_back({std::move(deep), width, height, false, true});
   return all;
 }
 
@@ -118,8 +119,7 @@ std::vector<tuning_workload> workloads_of(tracer::device_scene& on, const tuning
     w.scene = index;
     w.is_picture = true;
     w.width = s.width, w.height = s.height, w.max_depth = s.what.max_depth;
-    const tracer::features f = tracer::features::of(s.what);
-    w.has_followers = f.reflection || f.transparency;
+    w.grows_trees = tracer::grows_trees(s.what, w.max_depth);
   }
   if (!s.with_rays) return all;
   tuning_workload eye = of_rays(s, index, "eye"), shadow = of_rays(s, index, "shadow"),

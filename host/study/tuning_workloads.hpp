@@ -18,7 +18,8 @@ struct tuning_scene {
 };
 
 /// A knot (rays and a picture, in which no ray follows another), hills (rays) and a still life of
-/// glass and mirrors (a picture). `is_quick`: some thousand triangles each, not 72,000 to 500,000.
+/// glass and mirrors (a picture of depth 8). `is_quick`: some thousand triangles each, not 72,000
+/// to 500,000.
 std::vector<tuning_scene> tuning_scenes(std::uint32_t width, bool is_quick);
 
 /// One thing that is timed.
@@ -29,7 +30,7 @@ struct tuning_workload {
   std::vector<tracer::ray> rays;                       ///< but for pictures
   bool any = false;                                    ///< any hit ends a ray
   std::uint32_t width = 0, height = 0, max_depth = 0;  ///< of a picture
-  bool has_followers = false;                          ///< rays are reflected or refracted
+  bool grows_trees = false;                            ///< tracer::grows_trees
 };
 
 /// One ray through the centre of each pixel; those of a packet's pixels are neighbours, as a

@@ -1,6 +1,7 @@
-// The ranges of one-dimensional kernels.
+// The ranges of kernels.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -13,6 +14,14 @@ namespace facet::tracer {
 inline runtime::nd_range<1> padded(std::size_t count, std::uint32_t group) {
   const std::size_t groups = count == 0 ? 1 : (count + group - 1) / group;
   return {runtime::range<1>(groups * group), runtime::range<1>(group)};
+}
+
+/// The same of two dimensions.
+inline runtime::nd_range<2> padded(std::size_t columns, std::size_t rows, runtime::range<2> group) {
+  const auto whole = [](std::size_t count, std::size_t size) {
+    return std::max<std::size_t>(1, (count + size - 1) / size) * size;
+  };
+  return {runtime::range<2>(whole(columns, group[0]), whole(rows, group[1])), group};
 }
 
 /// So many groups of that size.

@@ -4,6 +4,7 @@
 
 #include "scene/error.hpp"
 #include "scene/media.hpp"
+#include "tracer/sample_render.hpp"
 #include "tracer/split_render.hpp"
 #include "tracer/state.hpp"
 #include "tracer/stopwatch.hpp"
@@ -85,7 +86,10 @@ picture device_scene::render(std::uint32_t width, std::uint32_t height, std::uin
     done.wait_and_throw();
     return done.milliseconds();
   };
-  split_renderer* const split = s.is_split() ? &s.split_kernels(max_depth, total) : nullptr;
+  split_renderer* const split =
+      s.is_split(max_depth) ? &s.split_kernels(max_depth, total) : nullptr;
+  sample_renderer* const apart =
+      !split && s.has_samples_apart() ? &s.sample_kernels(max_depth, total) : nullptr;
   std::uint64_t refused = 0, crowded = 0;
   std::map<std::string, double> parts_ms;
   const auto take_faults = [&] {
@@ -94,6 +98,7 @@ picture device_scene::render(std::uint32_t width, std::uint32_t height, std::uin
     s.clear_faults();
   };
   const std::function<double(const tile&)> render_tile = [&](const tile& t) {
+    if (apart) return apart->render(t, view_buffer, pixels);
     if (!split) return by_one_kernel(t);
     std::map<std::string, double> ms;
     if (split->render(t, view_buffer, pixels, ms)) {
@@ -124,7 +129,9 @@ picture device_scene::render(std::uint32_t width, std::uint32_t height, std::uin
   double kernel_ms = 0;
   std::uint32_t tiles = 0;
   tiler tiles_left(width, height, s.chosen, std::max(1u, group.height) * item.height,
-                   split ? split->most_pixels() : total);
+                   split   ? split->most_pixels()
+                   : apart ? apart->most_pixels()
+                           : total);
   for (tile t{}; tiles_left.next(t);) {
     if (cancel && cancel->load()) throw cancelled(done, total);
     const double ms = render_tile(t);

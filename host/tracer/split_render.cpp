@@ -23,11 +23,7 @@ split_renderer::split_renderer(device_scene::state& s, std::uint32_t max_depth,
       max_depth_(max_depth),
       group_(s.tuned.group),
       capacity_(capacity_for(pixels)),
-      program_(
-          compiled(s.queue, s.kernels, main_file,
-                   traversal_options(s.used, s.model.nesting, s.chosen.tree, s.in_images,
-                                     s.geometry.is_wide, s.geometry.stack, max_depth, s.tuned) +
-                       register_cap(s.tuned.trace_registers))),
+      program_(s.compiled_to_render(main_file, max_depth)),
       eye_(program_.get_kernel("eye_rays")),
       trace_(program_.get_kernel("trace_rays")),
       shade_(program_.get_kernel("shade_rays")),

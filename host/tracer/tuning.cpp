@@ -44,6 +44,7 @@ tuning tuning_for(const runtime::device& d) {
     t.bounds_group = 256;
     t.build_in_groups();
     t.split_render = true;
+    t.samples_apart = true;
     t.refit_group = 64;
     t.refit_nodes = 8;
   }
