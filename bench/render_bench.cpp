@@ -56,6 +56,7 @@ way way_of(const std::string& name, const settings& o) {
   if (name == "single") {
     w.options.packets = tracer::packet_kind::off;
     w.options.split = tracer::split_kind::off;
+    w.options.samples_apart = false;
   }
   if (name == "split") w.options.split = tracer::split_kind::on;
   if (name == "all-features") w.options.all_features = true;

@@ -14,19 +14,25 @@
 // Up to 32 boxes. Of equal centres along an axis the box that comes first is the lower one.
 typedef struct {
   Packed box[32];
-  float centre[3][32];  // doubled; INFINITY where there is no box
+  int centre[3][32];  // doubled, as a key; the largest where there is no box
   uint weight[32];
 } Entries;
 
 static inline void begin_entries(Entries* e) {
   for (uint axis = 0u; axis < 3u; ++axis)
-    for (uint k = 0u; k < 4u; ++k) vstore8((float8)(INFINITY), k, e->centre[axis]);
+    for (uint k = 0u; k < 4u; ++k) vstore8((int8)(INT_MAX), k, e->centre[axis]);
+}
+
+// Orders as the float does, with one zero; numbers that are none have a place, too.
+static inline int order_key(float x) {
+  const int bits = as_int(x + 0.0f);
+  return bits ^ (bits >> 31 & INT_MAX);
 }
 
 static inline void put_entry(Entries* e, uint i, Bounds b, uint weight) {
   const float3 c = centre2(b);
   e->box[i] = packed(b);
-  e->centre[0][i] = c.x, e->centre[1][i] = c.y, e->centre[2][i] = c.z;
+  e->centre[0][i] = order_key(c.x), e->centre[1][i] = order_key(c.y), e->centre[2][i] = order_key(c.z);
   e->weight[i] = weight;
 }
 
@@ -37,17 +43,17 @@ typedef struct {
 
 // An entry's place is how many are below it: eight entries are compared with one at a time. Those before the eight
 // are also below them where they are equal.
-static inline void order_along(const float* centre, uint count, uchar* place, uchar* entry) {
+static inline void order_along(const int* centre, uint count, uchar* place, uchar* entry) {
   const int8 lane = (int8)(0, 1, 2, 3, 4, 5, 6, 7);
   for (uint first = 0u; first < count; first += 8u) {
-    const float8 own = vload8(0, centre + first);
+    const int8 own = vload8(0, centre + first);
     int8 at = (int8)(0);  // less the place
-    for (uint i = 0u; i < first; ++i) at += (float8)(centre[i]) <= own;
+    for (uint i = 0u; i < first; ++i) at += (int8)(centre[i]) <= own;
     for (uint i = 0u; i < 8u; ++i) {
-      const float8 c = (float8)(centre[first + i]);
+      const int8 c = (int8)(centre[first + i]);
       at += (c < own) | ((c == own) & ((int8)((int)i) < lane));
     }
-    for (uint i = first + 8u; i < count; ++i) at += (float8)(centre[i]) < own;
+    for (uint i = first + 8u; i < count; ++i) at += (int8)(centre[i]) < own;
     int places[8];
     vstore8(-at, 0, places);
     for (uint i = 0u; i < 8u && first + i < count; ++i) {

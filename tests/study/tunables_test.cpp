@@ -101,7 +101,7 @@ TEST_CASE("a choice is made on the workloads whose kernels it changes") {
   CHECK(!matters("render_group", packets(), of_picture(false)));
 
   CHECK(matters("registers", narrow(), of_rays()));
-  CHECK(!matters("registers", narrow(), of_picture(true)));
+  CHECK(matters("registers", narrow(), of_picture(true)));
   CHECK(matters("registers", split, of_picture(true)));
 
   CHECK(matters("leaves", narrow(), of_rays()));

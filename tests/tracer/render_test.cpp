@@ -121,6 +121,38 @@ TEST_CASE(
   CHECK_FALSE(same_bits(device_scene(test::queue(), s, o).render(90, 50, 12), expected));
 }
 
+TEST_CASE(
+    "a work-item for each sample: the same picture, in tiles too, and only where there are "
+    "several") {
+  scene s = test::every_feature();
+  s.samples = 3;
+  options together;
+  together.packets = tracer::packet_kind::off;
+  together.samples_apart = false;
+  const picture expected = render(s, together);
+  options apart = together;
+  apart.samples_apart = true;
+  for (const bool in_tiles : {false, true}) {
+    CAPTURE(in_tiles);
+    if (in_tiles) apart.tile_width = 17, apart.tile_height = 13;
+    CHECK(same_bits(render(s, apart), expected));
+  }
+  const auto file_of = [](const scene& what, const options& o) {
+    return device_scene(test::queue(), what, o).describe_render(2).text;
+  };
+  const char* const kernel = "__kernel void render_samples(";
+  CHECK(file_of(s, apart).find(kernel) != std::string::npos);
+  CHECK(file_of(s, together).find(kernel) == std::string::npos);
+  options in_groups = apart;
+  in_groups.group_width = in_groups.group_height = 4;
+  CHECK(file_of(s, in_groups).find(kernel) == std::string::npos);
+  // Samples that are added up twice are not the same.
+  apart.edits = {{"render_samples.cl", "columns + n * x + i]", "columns + n * x]"}};
+  CHECK_FALSE(same_bits(render(s, apart), expected));
+  s.samples = 1;
+  CHECK(file_of(s, apart).find(kernel) == std::string::npos);
+}
+
 TEST_CASE("leaving out what a scene does not use changes no bit, feature by feature") {
   scene s = test::every_feature();
   options all;
