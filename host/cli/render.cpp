@@ -90,6 +90,7 @@ picture render_on_device(const arguments& o, const scene& s, picture_shape p,
   options.defaults = tuned_defaults(device, o.tracing.no_tuning, o.say);
   options.group_width = o.group.width, options.group_height = o.group.height;
   options.tile_width = o.tile.width, options.tile_height = o.tile.height;
+  options.starts_soon = true;  // one picture is made
   tracer::device_scene on_device(runtime::queue(device), s, options);
   stop_if_interrupted("preparing the device");
   prepare_to_write(o.out);

@@ -10,7 +10,7 @@ namespace facet::tracer {
 template <class Primitive>
 curve_order<Primitive>::curve_order(const runtime::queue& q, const runtime::source_tree& kernels,
                                     const tuning& t)
-    : queue_(q), kernels_(kernels), tuning_(t), few_(t.orders_alone() ? t.sort.few : 0) {
+    : queue_(q), kernels_(kernels), tuning_(t), few_(t.ordered_at_once()) {
   prepare(few_ > 0 ? 1 : 0);
 }
 

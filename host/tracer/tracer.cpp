@@ -44,6 +44,7 @@ void apply(const kernel_edit& e, runtime::source_tree& kernels) {
 tuning tuning_with(const options& o, const runtime::device& d) {
   tuning t = tuning_for(d);
   t.more_flags = o.compiler_flags;
+  t.starts_soon = o.starts_soon;
   if (!o.defaults) return t;
   if (const std::string fault = fault_of(*o.defaults, d); !fault.empty())
     throw runtime::exception(runtime::errc::invalid,

@@ -62,6 +62,7 @@ struct options {
   std::uint32_t tile_width = 0, tile_height = 0;    ///< pixels a launch; 0: about 50 ms each
   std::uint64_t split_rays = 0;                     ///< room for so many; 0: by picture and device
   bool movable = false;                             ///< see device_scene::move_vertices, place
+  bool starts_soon = false;                         ///< a CPU compiles less, and may build longer
   bool all_features = false;                        ///< compile what the scene does not need, too
   std::string kernel_folder;                        ///< read cl/ from here, not from the library
   std::vector<kernel_edit> edits;                   ///< how a variant differs, in order

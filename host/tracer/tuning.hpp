@@ -1,6 +1,7 @@
 // Values that only speed depends on, in one place.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 
@@ -32,8 +33,16 @@ struct tuning : choices {
   void build_in_groups();
   void build_alone();
 
+  bool starts_soon = false;  ///< options::starts_soon
+
   /// Whether single work-items put primitives in order, too: sort and build as on a CPU.
   bool orders_alone() const { return serial_trees && sort.face == sort_face::serial; }
+  /// So many primitives one of them puts in order by itself: to start soon, as many as take it
+  /// 20 ms, where to compile the steps for more takes a second.
+  std::uint32_t ordered_at_once() const {
+    if (!orders_alone()) return 0;
+    return starts_soon ? std::max(sort.few, 1u << 18) : sort.few;
+  }
 
   /// Options for the compiler, each with a space before it.
   std::string flags() const;

@@ -70,6 +70,21 @@ TEST_CASE("one work-item puts few primitives in the order that the steps for man
     check_same(soup(n, 0.02f), n);
 }
 
+TEST_CASE("more than a sort's few are put in order at once only to start soon, and not by groups") {
+  tuning t = with_few(100);
+  CHECK(t.ordered_at_once() == 100);
+  t.starts_soon = true;
+  CHECK(t.ordered_at_once() == 1u << 18);
+  t.sort.few = 1u << 20;
+  CHECK(t.ordered_at_once() == 1u << 20);
+  t.serial_trees = false;
+  CHECK(t.ordered_at_once() == 0);
+  t = with_few(100);
+  t.starts_soon = true;
+  curve_order<texel> soon(test::queue(), kernel_sources(), t);
+  CHECK(made(soon, soup(5000, 0.02f), 5000).kernel == "order_few");
+}
+
 TEST_CASE("so it does with equal ones, in a row, spaced ever wider") {
   for (const std::uint32_t n : {2u, 33u, 1500u}) {
     std::vector<texel> equal(3 * std::size_t(n), texel{1, 2, 3, 0}), row = soup(n, 0.1f),
