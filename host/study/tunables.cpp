@@ -11,7 +11,7 @@ using values = std::vector<choices>;
 
 bool is_by_packets(const choices& c) { return c.wide_layout && c.packets; }
 bool is_by_several_kernels(const choices& c, const tuning_workload& w) {
-  return w.is_picture && w.grows_trees && c.split_render;
+  return w.is_picture && w.has_followers && c.split_render;
 }
 
 // layout, with where triangles are read from, and whether by packets, since one asks for another.
@@ -89,7 +89,7 @@ values leaves(const choices& so_far, const runtime::device&) {
 
 bool to_all(const choices&, const tuning_workload&) { return true; }
 bool to_branching_pictures(const choices&, const tuning_workload& w) {
-  return w.is_picture && w.grows_trees;
+  return w.is_picture && w.has_followers;
 }
 bool to_packets(const choices& c, const tuning_workload& w) {
   return is_by_packets(c) && !is_by_several_kernels(c, w);

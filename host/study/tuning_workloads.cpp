@@ -119,7 +119,8 @@ std::vector<tuning_workload> workloads_of(tracer::device_scene& on, const tuning
     w.scene = index;
     w.is_picture = true;
     w.width = s.width, w.height = s.height, w.max_depth = s.what.max_depth;
-    w.grows_trees = tracer::grows_trees(s.what, w.max_depth);
+    const tracer::features f = tracer::features::of(s.what);
+    w.has_followers = f.reflection || f.transparency;
   }
   if (!s.with_rays) return all;
   tuning_workload eye = of_rays(s, index, "eye"), shadow = of_rays(s, index, "shadow"),

@@ -30,7 +30,7 @@ struct tuning_workload {
   std::vector<tracer::ray> rays;                       ///< but for pictures
   bool any = false;                                    ///< any hit ends a ray
   std::uint32_t width = 0, height = 0, max_depth = 0;  ///< of a picture
-  bool grows_trees = false;                            ///< tracer::grows_trees
+  bool has_followers = false;                          ///< rays are reflected or refracted
 };
 
 /// One ray through the centre of each pixel; those of a packet's pixels are neighbours, as a

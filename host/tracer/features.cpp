@@ -1,6 +1,5 @@
 #include "tracer/features.hpp"
 
-#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -66,12 +65,6 @@ std::string features::names() const {
   for (const named& n : names_and_flags)
     if (this->*n.on) text.append(text.empty() ? "" : ",").append(n.name);
   return text.empty() ? "none" : text;
-}
-
-bool grows_trees(const scene& s, std::uint32_t max_depth) {
-  return max_depth >= 8 &&
-         std::any_of(s.materials.begin(), s.materials.end(),
-                     [](const material& m) { return m.is_transparent() && m.is_mirror(); });
 }
 
 }  // namespace facet::tracer

@@ -29,8 +29,4 @@ struct features {
   friend bool operator==(const features&, const features&) = default;
 };
 
-/// Whether a sample's rays may be a tree of more than 2^8, since some material both reflects and
-/// lets through.
-bool grows_trees(const scene& s, std::uint32_t max_depth);
-
 }  // namespace facet::tracer

@@ -86,8 +86,7 @@ picture device_scene::render(std::uint32_t width, std::uint32_t height, std::uin
     done.wait_and_throw();
     return done.milliseconds();
   };
-  split_renderer* const split =
-      s.is_split(max_depth) ? &s.split_kernels(max_depth, total) : nullptr;
+  split_renderer* const split = s.is_split() ? &s.split_kernels(max_depth, total) : nullptr;
   sample_renderer* const apart =
       !split && s.has_samples_apart() ? &s.sample_kernels(max_depth, total) : nullptr;
   std::uint64_t refused = 0, crowded = 0;

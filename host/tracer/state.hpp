@@ -44,7 +44,7 @@ struct device_scene::state {
   runtime::kernel render_kernel(std::uint32_t max_depth);
   const char* render_file() const;
   /// Whether the next picture is made by several kernels; they, for so many pixels at once.
-  bool is_split(std::uint32_t max_depth) const;
+  bool is_split() const;
   split_renderer& split_kernels(std::uint32_t max_depth, std::uint64_t pixels);
   /// Whether, if not, it is by a work-item for each sample; likewise.
   bool has_samples_apart() const;

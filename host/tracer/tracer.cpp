@@ -155,7 +155,7 @@ void device_scene::leave_work_group_to_driver() { state_->chosen.driver_group = 
 
 kernel_description device_scene::describe_render(std::uint32_t max_depth) {
   state& s = *state_;
-  if (s.is_split(max_depth)) return s.split_kernels(max_depth, 1).describe();
+  if (s.is_split()) return s.split_kernels(max_depth, 1).describe();
   if (s.has_samples_apart()) return s.sample_kernels(max_depth, 1).describe();
   const runtime::kernel kernel = s.render_kernel(max_depth);
   return {runtime::expand(s.kernels, s.render_file()), s.render_program->options(),
@@ -196,10 +196,11 @@ runtime::kernel device_scene::state::render_kernel(std::uint32_t max_depth) {
   return render_program->get_kernel("render");
 }
 
-bool device_scene::state::is_split(std::uint32_t max_depth) const {
+bool device_scene::state::is_split() const {
   if (chosen.split != split_kind::automatic) return chosen.split == split_kind::on;
-  // A work-group that was asked for is that of the kernel for whole pixels.
-  return tuned.split_render && grows_trees(model, max_depth) && chosen.group_width == 0 &&
+  // A work-group that was asked for is that of the kernel for whole pixels. It is also the faster
+  // one where no ray follows another.
+  return tuned.split_render && (used.reflection || used.transparency) && chosen.group_width == 0 &&
          !chosen.driver_group;
 }
 

@@ -43,7 +43,6 @@ tuning tuning_for(const runtime::device& d) {
   if (d.is_gpu()) {
     t.bounds_group = 256;
     t.build_in_groups();
-    t.split_render = true;
     t.samples_apart = true;
     t.refit_group = 64;
     t.refit_nodes = 8;

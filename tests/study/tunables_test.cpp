@@ -18,10 +18,10 @@ namespace {
 
 tuning_workload of_rays() { return {}; }
 
-tuning_workload of_picture(bool grows_trees) {
+tuning_workload of_picture(bool has_followers) {
   tuning_workload w;
   w.is_picture = true;
-  w.grows_trees = grows_trees;
+  w.has_followers = has_followers;
   return w;
 }
 

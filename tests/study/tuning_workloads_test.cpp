@@ -53,7 +53,7 @@ TEST_CASE(
       kinds.insert(w.name.substr(w.name.find(": ") + 2));
       CHECK(w.rays.empty() == w.is_picture);
       CHECK(w.any == w.name.ends_with("shadow rays"));
-      if (w.is_picture) followers.insert(w.grows_trees);
+      if (w.is_picture) followers.insert(w.has_followers);
     }
   CHECK(kinds == std::set<std::string>{"eye rays", "shadow rays", "bounce rays", "picture"});
   CHECK(followers.size() == 2);
