@@ -96,7 +96,8 @@ typedef struct {
 } Splits;
 
 static inline void list_splits(const Entries* e, const uchar* entry, uint places, uint count, Splits* s) {
-  Packed left = no_packed(), right = left;
+  // No infinite box: a variant's compiler may take it that there is none.
+  Packed left = e->box[entry[first_lane(places)]], right = e->box[entry[31u - clz(places)]];
   uint weight = 0u, from_left = places, from_right = places;
   for (uint i = 0u; i < count; ++i) {
     const uint l = entry[first_lane(from_left)], last = 31u - clz(from_right), r = entry[last];
@@ -146,9 +147,13 @@ static inline SerialSplit best_serial_split(const Entries* e, const Orders* o, c
     const float2 two = four.lo < four.hi ? four.lo : four.hi;
     const float found = two.x < two.y ? two.x : two.y;
     if (axis > 0u && !(found < best.cost)) continue;
-    uint first = 0u, lanes;
-    while ((lanes = lanes_of(cost[first] == (float8)(found))) == 0u) ++first;
-    const uint at = 8u * first + first_lane(lanes);
+    uint at = 0u;
+    for (uint k = 0u; 8u * k < count; ++k) {
+      const uint lanes = lanes_of(cost[k] == (float8)(found)) & ((1u << min(count - 8u * k, 8u)) - 1u);
+      if (lanes == 0u) continue;
+      at = 8u * k + first_lane(lanes);
+      break;
+    }
     best.cost = found;
     best.axis = axis;
     best.left = at + 1u;

@@ -169,7 +169,12 @@ static inline uint split_range(__global Item* items, const TopRange* w, __global
   }
   if (split.axis == SPLIT_BY_INDEX) split.left = middle_index(w->first, w->last);
   Packed box[2];
-  const uint middle = part_items(items, w, split.axis, split.left, box);
+  uint middle = part_items(items, w, split.axis, split.left, box);
+  if ((middle == w->begin || middle == w->end) && split.axis != SPLIT_BY_INDEX) {
+    // Both sides have bins: only a variant's compiler, which may round as it likes, finds other bins here.
+    split.axis = SPLIT_BY_INDEX, split.left = middle_index(w->first, w->last);
+    middle = part_items(items, w, split.axis, split.left, box);
+  }
   side[0] = side[1] = *w;
   if (middle == w->begin || middle == w->end) {
     if (middle == w->begin) side[0].first = split.left + 1u;
