@@ -27,6 +27,17 @@ scene disc_on_black() {
   return s;
 }
 
+/// Why the device's picture of one scene, so wide, is not the reference's of another.
+study::explanation explained(const scene& expected, const scene& traced, std::uint32_t width) {
+  const char* name = std::getenv("FACET_TEST_DEVICE");
+  const runtime::queue q{runtime::select_device(name ? name : "0")};
+  const std::uint32_t height = std::max(1u, width * expected.height / expected.width);
+  const reference::tracer<float> oracle(expected);
+  return study::explain(expected, oracle, oracle.render(width, height, expected.max_depth),
+                        tracer::device_scene(q, traced).render(width, height, traced.max_depth),
+                        expected.max_depth);
+}
+
 }  // namespace
 
 TEST_CASE("equal pictures have nothing to explain") {
@@ -66,8 +77,6 @@ TEST_CASE("a wrong pixel inside a surface, or NaN, is not explained; a silhouett
 
 // The picture of every scene in scenes/, from the device and from the float reference.
 TEST_CASE("every scene: at most 0.1% of the pixels are off by more than 1/255, each at an edge") {
-  const char* name = std::getenv("FACET_TEST_DEVICE");
-  runtime::queue q{runtime::select_device(name ? name : "0")};
   std::size_t scenes = 0;
   for (const auto& file : std::filesystem::directory_iterator(FACET_SOURCE_DIR "/scenes")) {
     const std::string path = file.path().string();
@@ -75,11 +84,7 @@ TEST_CASE("every scene: at most 0.1% of the pixels are off by more than 1/255, e
     CAPTURE(path);
     ++scenes;
     const scene s = placed(load_scene(file.path()));
-    const std::uint32_t width = 240, height = std::max(1u, 240 * s.height / s.width);
-    const reference::tracer<float> oracle(s);
-    const picture expected = oracle.render(width, height, s.max_depth);
-    const picture found = tracer::device_scene(q, s).render(width, height, s.max_depth);
-    const auto e = study::explain(s, oracle, expected, found, s.max_depth);
+    const auto e = explained(s, s, 240);
     CHECK(e.off.size() * 1000 <= e.pixels);
     CHECK(e.unexplained() == 0);
   }
@@ -89,18 +94,12 @@ TEST_CASE("every scene: at most 0.1% of the pixels are off by more than 1/255, e
 // Corners that are rounded in the world move edges by about 2^-24 of the picture, as rays that are
 // rounded do.
 TEST_CASE("a scene's picture is that of its instances, but at edges") {
-  const char* name = std::getenv("FACET_TEST_DEVICE");
-  runtime::queue q{runtime::select_device(name ? name : "0")};
   for (const char* file : {"nested_glass.json", "showcase.json"}) {
     CAPTURE(file);
     const scene s = load_scene(std::filesystem::path(FACET_SOURCE_DIR "/scenes") / file);
     const scene moved = placed(s);
     REQUIRE(moved.instances.size() < s.instances.size());
-    const std::uint32_t width = 160, height = 160 * s.height / s.width;
-    const reference::tracer<float> oracle(s);
-    const picture expected = oracle.render(width, height, s.max_depth);
-    const picture found = tracer::device_scene(q, moved).render(width, height, s.max_depth);
-    const auto e = study::explain(s, oracle, expected, found, s.max_depth);
+    const auto e = explained(s, moved, 160);
     CHECK(e.off.size() * 1000 <= e.pixels);
     CHECK(e.unexplained() == 0);
   }
