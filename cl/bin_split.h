@@ -4,17 +4,7 @@
 #define FACET_BIN_SPLIT_H
 
 #include "bins.h"
-
-// Floats as integers in the same order, so that atomics can bound them.
-static inline uint ordered(float x) {
-  const uint bits = as_uint(x);
-  return bits ^ ((bits >> 31) != 0u ? 0xffffffffu : 0x80000000u);
-}
-static inline float unordered(uint x) {
-  return as_float(x ^ ((x >> 31) != 0u ? 0x80000000u : 0xffffffffu));
-}
-#define ORDERED_LEAST 0u
-#define ORDERED_MOST 0xffffffffu
+#include "ordered.h"
 
 // A bin in memory: lo, hi as ordered integers, weight, items.
 #define BIN_WORDS FACET_BIN_WORDS

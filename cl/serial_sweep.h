@@ -7,6 +7,7 @@
 #ifndef FACET_SERIAL_SWEEP_H
 #define FACET_SERIAL_SWEEP_H
 
+#include "ordered.h"
 #include "packed.h"
 
 #define SWEEP_MOST FACET_SWEEP_MOST
@@ -14,25 +15,19 @@
 // Up to 32 boxes. Of equal centres along an axis the box that comes first is the lower one.
 typedef struct {
   Packed box[32];
-  int centre[3][32];  // doubled, as a key; the largest where there is no box
+  uint centre[3][32];  // doubled, and ordered; ORDERED_MOST where there is no box
   uint weight[32];
 } Entries;
 
 static inline void begin_entries(Entries* e) {
   for (uint axis = 0u; axis < 3u; ++axis)
-    for (uint k = 0u; k < 4u; ++k) vstore8((int8)(INT_MAX), k, e->centre[axis]);
-}
-
-// Orders as the float does, with one zero; numbers that are none have a place, too.
-static inline int order_key(float x) {
-  const int bits = as_int(x + 0.0f);
-  return bits ^ (bits >> 31 & INT_MAX);
+    for (uint k = 0u; k < 4u; ++k) vstore8((uint8)(ORDERED_MOST), k, e->centre[axis]);
 }
 
 static inline void put_entry(Entries* e, uint i, Bounds b, uint weight) {
-  const float3 c = centre2(b);
+  const float3 c = centre2(b) + 0.0f;  // of two zeros one
   e->box[i] = packed(b);
-  e->centre[0][i] = order_key(c.x), e->centre[1][i] = order_key(c.y), e->centre[2][i] = order_key(c.z);
+  e->centre[0][i] = ordered(c.x), e->centre[1][i] = ordered(c.y), e->centre[2][i] = ordered(c.z);
   e->weight[i] = weight;
 }
 
@@ -43,17 +38,17 @@ typedef struct {
 
 // An entry's place is how many are below it: eight entries are compared with one at a time. Those before the eight
 // are also below them where they are equal.
-static inline void order_along(const int* centre, uint count, uchar* place, uchar* entry) {
+static inline void order_along(const uint* centre, uint count, uchar* place, uchar* entry) {
   const int8 lane = (int8)(0, 1, 2, 3, 4, 5, 6, 7);
   for (uint first = 0u; first < count; first += 8u) {
-    const int8 own = vload8(0, centre + first);
+    const uint8 own = vload8(0, centre + first);
     int8 at = (int8)(0);  // less the place
-    for (uint i = 0u; i < first; ++i) at += (int8)(centre[i]) <= own;
+    for (uint i = 0u; i < first; ++i) at += (uint8)(centre[i]) <= own;
     for (uint i = 0u; i < 8u; ++i) {
-      const int8 c = (int8)(centre[first + i]);
+      const uint8 c = (uint8)(centre[first + i]);
       at += (c < own) | ((c == own) & ((int8)((int)i) < lane));
     }
-    for (uint i = first + 8u; i < count; ++i) at += (int8)(centre[i]) < own;
+    for (uint i = first + 8u; i < count; ++i) at += (uint8)(centre[i]) < own;
     int places[8];
     vstore8(-at, 0, places);
     for (uint i = 0u; i < 8u && first + i < count; ++i) {

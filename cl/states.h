@@ -1,10 +1,10 @@
 // A pixel's path as an explicit machine: what recursion would keep on the call stack is a stack of
 // pending rays in private memory.
 //
-//   TRACE --met--> SHADE --child--> TRACE        one child is followed, the other is pushed
-//     |              |---no child---> RESUME
-//     +--missed--> ESCAPE ----------> RESUME --pending--> TRACE
-//                                        +-----none-----> DONE
+//   TRACE --met--> branch --child--> TRACE       one child is followed, the other is pushed
+//     |              |----no child---> RESUME
+//     +--missed--> escape -----------> RESUME --pending--> TRACE
+//                                         +-----none-----> DONE
 //
 // The reflected child is followed and the refracted one pushed, so the contributions are added in
 // the order of the recursion that visits reflection first, and a ray waits at most once for each
@@ -14,7 +14,7 @@
 
 #include "light.h"
 
-typedef enum { TRACE, SHADE, ESCAPE, RESUME, DONE } State;
+typedef enum { TRACE, RESUME, DONE } State;
 
 typedef struct {
   float3 origin, direction, throughput;

@@ -18,7 +18,7 @@ struct choices {
   std::uint32_t group = 64;        ///< of the other one-dimensional kernels
   std::uint32_t render_group_width = 8,
                 render_group_height = 8;  ///< the render kernel's work-group
-  std::uint32_t trace_registers = 0;      ///< of trace.cl's and render_split.cl's (register_cap)
+  std::uint32_t trace_registers = 0;      ///< of kernels that trace rays (register_cap)
   std::uint32_t leaf_sure = 2;  ///< triangles: a subtree of at most so many is a leaf, ...
   std::uint32_t leaf_size = 4;  ///< ... of more than so many not (narrow layout)
 

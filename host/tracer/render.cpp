@@ -4,6 +4,7 @@
 
 #include "scene/error.hpp"
 #include "scene/media.hpp"
+#include "tracer/launch.hpp"
 #include "tracer/sample_render.hpp"
 #include "tracer/split_render.hpp"
 #include "tracer/state.hpp"
@@ -40,10 +41,7 @@ void launch_over(runtime::handler& h, const tile& t, item_size item, group_size 
   const std::size_t width = (t.right - t.left + item.width - 1) / item.width,
                     height = (t.bottom - t.top + item.height - 1) / item.height;
   if (g.width == 0) return h.parallel_for(runtime::range<2>(width, height), kernel);
-  const std::size_t columns = (width + g.width - 1) / g.width,
-                    rows = (height + g.height - 1) / g.height;
-  h.parallel_for(runtime::nd_range<2>({columns * g.width, rows * g.height}, {g.width, g.height}),
-                 kernel);
+  h.parallel_for(padded(width, height, {g.width, g.height}), kernel);
 }
 
 void check_size(std::uint32_t width, std::uint32_t height, std::uint32_t max_depth) {
@@ -58,7 +56,76 @@ void check_size(std::uint32_t width, std::uint32_t height, std::uint32_t max_dep
                           std::to_string(limits::max_depth) + " is allowed");
 }
 
+/// The one that there is, or another where that does not suffice.
+template <class Renderer>
+Renderer& kept(std::shared_ptr<Renderer>& one, device_scene::state& s, std::uint32_t max_depth,
+               std::uint64_t pixels) {
+  if (!one || !one->suffices(max_depth, pixels)) {
+    one.reset();  // its memory is free before more is asked for
+    one = std::make_shared<Renderer>(s, max_depth, pixels);
+  }
+  return *one;
+}
+
 }  // namespace
+
+runtime::program device_scene::state::compiled_to_render(const char* file,
+                                                         std::uint32_t max_depth) const {
+  return compiled(queue, kernels, file,
+                  traversal_options(used, model.nesting, chosen.tree, in_images, geometry.is_wide,
+                                    geometry.stack, max_depth, tuned) +
+                      register_cap(tuned.trace_registers));
+}
+
+runtime::kernel device_scene::state::render_kernel(std::uint32_t max_depth) {
+  if (!render_program || render_stack < max_depth) {
+    render_program = compiled_to_render(render_file(), max_depth);
+    render_stack = max_depth;
+  }
+  return render_program->get_kernel("render");
+}
+
+bool device_scene::state::is_split() const {
+  if (chosen.split != split_kind::automatic) return chosen.split == split_kind::on;
+  // A work-group that was asked for is that of the kernel for whole pixels. It is also the faster
+  // one where no ray follows another.
+  return tuned.split_render && (used.reflection || used.transparency) && chosen.group_width == 0 &&
+         !chosen.driver_group;
+}
+
+split_renderer& device_scene::state::split_kernels(std::uint32_t max_depth, std::uint64_t pixels) {
+  return kept(split, *this, max_depth, pixels);
+}
+
+bool device_scene::state::has_samples_apart() const {
+  return chosen.samples_apart.value_or(tuned.samples_apart) && model.samples > 1 &&
+         chosen.group_width == 0 && !chosen.driver_group && !in_packets;
+}
+
+sample_renderer& device_scene::state::sample_kernels(std::uint32_t max_depth,
+                                                     std::uint64_t pixels) {
+  return kept(apart, *this, max_depth, pixels);
+}
+
+const char* device_scene::state::render_file() const {
+  return in_packets ? "render_packets.cl" : "render.cl";
+}
+
+std::uint32_t device_scene::state::set_picture(runtime::handler& h, runtime::buffer<View>& view) {
+  std::uint32_t k = set_normals(h, set_geometry(h));
+  h.set_arg(k++, runtime::accessor{lights, h, runtime::read_only});
+  h.set_arg(k++, runtime::accessor{view, h, runtime::read_only});
+  return k;
+}
+
+kernel_description device_scene::describe_render(std::uint32_t max_depth) {
+  state& s = *state_;
+  if (s.is_split()) return s.split_kernels(max_depth, 1).describe();
+  if (s.has_samples_apart()) return s.sample_kernels(max_depth, 1).describe();
+  const runtime::kernel kernel = s.render_kernel(max_depth);
+  return {runtime::expand(s.kernels, s.render_file()), s.render_program->options(),
+          kernel.work_group_size(s.queue.get_device())};
+}
 
 picture device_scene::render(std::uint32_t width, std::uint32_t height, std::uint32_t max_depth,
                              statistics* stats, const progress& on_progress,
@@ -76,9 +143,7 @@ picture device_scene::render(std::uint32_t width, std::uint32_t height, std::uin
   const auto by_one_kernel = [&](const tile& t) {
     const runtime::kernel kernel = s.render_kernel(max_depth);
     const runtime::event done = s.queue.submit([&](runtime::handler& g) {
-      std::uint32_t k = s.set_normals(g, s.set_geometry(g));
-      g.set_arg(k++, runtime::accessor{s.lights, g, runtime::read_only});
-      g.set_arg(k++, runtime::accessor{view_buffer, g, runtime::read_only});
+      std::uint32_t k = s.set_picture(g, view_buffer);
       g.set_arg(k++, runtime::accessor{pixels, g, runtime::read_write});
       for (const std::uint32_t x : {t.left, t.top, t.right, t.bottom}) g.set_arg(k++, x);
       launch_over(g, t, item, group, kernel);

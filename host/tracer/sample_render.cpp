@@ -42,9 +42,7 @@ double sample_renderer::render(const tile& t, runtime::buffer<View>& view,
   const runtime::range<2> group(state_.tuned.render_group_width, state_.tuned.render_group_height);
   const std::uint32_t n = state_.model.samples;
   const runtime::event traced = state_.queue.submit([&](runtime::handler& h) {
-    std::uint32_t k = state_.set_normals(h, state_.set_geometry(h));
-    h.set_arg(k++, runtime::accessor{state_.lights, h, runtime::read_only});
-    h.set_arg(k++, runtime::accessor{view, h, runtime::read_only});
+    std::uint32_t k = state_.set_picture(h, view);
     h.set_arg(k++, runtime::accessor{samples_, h, runtime::write_only});
     for (const std::uint32_t x : {t.left, t.top, t.right, t.bottom}) h.set_arg(k++, x);
     h.parallel_for(padded(n * t.width(), n * t.height(), group), trace_);

@@ -109,9 +109,7 @@ void split_renderer::trace_rays(std::uint32_t depth, std::uint32_t first, std::u
 void split_renderer::shade_rays(std::uint32_t depth, std::uint32_t first_hit, std::uint32_t hits,
                                 std::uint32_t eyes, runtime::buffer<View>& view) {
   run("shade_rays " + std::to_string(depth), [&](runtime::handler& h) {
-    std::uint32_t k = state_.set_normals(h, state_.set_geometry(h));
-    h.set_arg(k++, runtime::accessor{state_.lights, h, runtime::read_only});
-    h.set_arg(k++, runtime::accessor{view, h, runtime::read_only});
+    std::uint32_t k = state_.set_picture(h, view);
     k = set_rays(h, k);
     h.set_arg(k++, runtime::accessor{hits_, h, runtime::read_only});
     k = set_surfaces(h, k);

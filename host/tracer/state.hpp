@@ -59,6 +59,8 @@ struct device_scene::state {
   /// Sets a kernel's first arguments, those of every traversal (cl/trace.cl, cl/render.cl).
   std::uint32_t set_geometry(runtime::handler& h);
   std::uint32_t set_normals(runtime::handler& h, std::uint32_t k);
+  /// Those of every kernel that shades, too: normals, lights and the view.
+  std::uint32_t set_picture(runtime::handler& h, runtime::buffer<View>& view);
 
   void clear_faults();
   /// Waits for what was submitted.

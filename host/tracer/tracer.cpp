@@ -4,8 +4,6 @@
 
 #include "scene/media.hpp"
 #include "tracer/pack.hpp"
-#include "tracer/sample_render.hpp"
-#include "tracer/split_render.hpp"
 #include "tracer/state.hpp"
 #include "tracer/wide_geometry.hpp"
 
@@ -153,15 +151,6 @@ void device_scene::set_work_group(std::uint32_t width, std::uint32_t height) {
 
 void device_scene::leave_work_group_to_driver() { state_->chosen.driver_group = true; }
 
-kernel_description device_scene::describe_render(std::uint32_t max_depth) {
-  state& s = *state_;
-  if (s.is_split()) return s.split_kernels(max_depth, 1).describe();
-  if (s.has_samples_apart()) return s.sample_kernels(max_depth, 1).describe();
-  const runtime::kernel kernel = s.render_kernel(max_depth);
-  return {runtime::expand(s.kernels, s.render_file()), s.render_program->options(),
-          kernel.work_group_size(s.queue.get_device())};
-}
-
 runtime::program device_scene::state::compiled_to_trace(const char* file) {
   return compiled(queue, kernels, file,
                   traversal_options(used, model.nesting, chosen.tree, in_images, geometry.is_wide,
@@ -178,56 +167,6 @@ runtime::kernel device_scene::state::trace_kernel(bool any) {
 runtime::kernel device_scene::state::refilled_kernel(const char* name) {
   if (!refilled_program) refilled_program = compiled_to_trace("trace_refilled.cl");
   return refilled_program->get_kernel(name);
-}
-
-runtime::program device_scene::state::compiled_to_render(const char* file,
-                                                         std::uint32_t max_depth) const {
-  return compiled(queue, kernels, file,
-                  traversal_options(used, model.nesting, chosen.tree, in_images, geometry.is_wide,
-                                    geometry.stack, max_depth, tuned) +
-                      register_cap(tuned.trace_registers));
-}
-
-runtime::kernel device_scene::state::render_kernel(std::uint32_t max_depth) {
-  if (!render_program || render_stack < max_depth) {
-    render_program = compiled_to_render(render_file(), max_depth);
-    render_stack = max_depth;
-  }
-  return render_program->get_kernel("render");
-}
-
-bool device_scene::state::is_split() const {
-  if (chosen.split != split_kind::automatic) return chosen.split == split_kind::on;
-  // A work-group that was asked for is that of the kernel for whole pixels. It is also the faster
-  // one where no ray follows another.
-  return tuned.split_render && (used.reflection || used.transparency) && chosen.group_width == 0 &&
-         !chosen.driver_group;
-}
-
-split_renderer& device_scene::state::split_kernels(std::uint32_t max_depth, std::uint64_t pixels) {
-  if (!split || !split->suffices(max_depth, pixels)) {
-    split.reset();  // its memory is free before more is asked for
-    split = std::make_shared<split_renderer>(*this, max_depth, pixels);
-  }
-  return *split;
-}
-
-bool device_scene::state::has_samples_apart() const {
-  return chosen.samples_apart.value_or(tuned.samples_apart) && model.samples > 1 &&
-         chosen.group_width == 0 && !chosen.driver_group && !in_packets;
-}
-
-sample_renderer& device_scene::state::sample_kernels(std::uint32_t max_depth,
-                                                     std::uint64_t pixels) {
-  if (!apart || !apart->suffices(max_depth, pixels)) {
-    apart.reset();
-    apart = std::make_shared<sample_renderer>(*this, max_depth, pixels);
-  }
-  return *apart;
-}
-
-const char* device_scene::state::render_file() const {
-  return in_packets ? "render_packets.cl" : "render.cl";
 }
 
 runtime::kernel device_scene::state::probe_kernel(const char* name) {

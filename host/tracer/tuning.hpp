@@ -37,8 +37,8 @@ struct tuning : choices {
 
   /// Whether single work-items put primitives in order, too: sort and build as on a CPU.
   bool orders_alone() const { return serial_trees && sort.face == sort_face::serial; }
-  /// So many primitives one of them puts in order by itself: to start soon, as many as take it
-  /// 20 ms, where to compile the steps for more takes a second.
+  /// So many primitives one of them puts in order by itself: to start soon, more than it is as
+  /// fast with, since to compile the steps for many takes a second.
   std::uint32_t ordered_at_once() const {
     if (!orders_alone()) return 0;
     return starts_soon ? std::max(sort.few, 1u << 18) : sort.few;
