@@ -77,6 +77,12 @@ class nd_range {
 
   constexpr range<D> get_global_range() const { return global_; }
   constexpr range<D> get_local_range() const { return local_; }
+  /// Groups along each dimension.
+  constexpr range<D> get_group_range() const {
+    range<D> groups = global_;
+    for (int d = 0; d < D; ++d) groups[d] /= local_[d];
+    return groups;
+  }
   constexpr id<D> get_offset() const { return offset_; }
 
  private:

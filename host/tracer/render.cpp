@@ -98,8 +98,9 @@ split_renderer& device_scene::state::split_kernels(std::uint32_t max_depth, std:
 }
 
 bool device_scene::state::has_samples_apart() const {
-  return chosen.samples_apart.value_or(tuned.samples_apart) && model.samples > 1 &&
-         chosen.group_width == 0 && !chosen.driver_group && !in_packets;
+  return chosen.samples_apart.value_or(tuned.samples_apart) &&
+         (model.samples > 1 || used.transparency) && chosen.group_width == 0 &&
+         !chosen.driver_group && !in_packets;
 }
 
 sample_renderer& device_scene::state::sample_kernels(std::uint32_t max_depth,

@@ -1,6 +1,9 @@
-// Pictures of several samples a pixel, by a work-item for each sample (cl/render_samples.cl). A
-// pixel is their mean, added up in the same order as by one work-item.
+// Pictures by a work-item for each sample (cl/render_samples.cl), those that are likely to take
+// longest first. A pixel is its samples' mean, added up in the same order as by one work-item.
 #pragma once
+
+#include <functional>
+#include <vector>
 
 #include "tracer/state.hpp"
 #include "tracer/tile.hpp"
@@ -27,14 +30,28 @@ class sample_renderer {
   double render(const tile& t, runtime::buffer<View>& view, runtime::buffer<texel>& pixels);
 
  private:
+  /// Of several samples; else a sample is a pixel.
+  bool has_means() const;
   std::uint64_t pixels_for(std::uint64_t pixels) const;
+  runtime::range<2> group() const;
+  runtime::nd_range<2> all_samples(const tile& t) const;
+
+  void run(const std::function<void(runtime::handler&)>& group);
+  /// Which work-groups are likely to take long, and all with them first.
+  void mark(const tile& t, runtime::buffer<View>& view);
+  void list(const tile& t);
+  void trace(const tile& t, runtime::buffer<View>& view, runtime::buffer<texel>& to);
+  void mean(const tile& t, runtime::buffer<View>& view, runtime::buffer<texel>& pixels);
 
   device_scene::state& state_;
   std::uint32_t max_depth_;
   std::uint64_t most_pixels_;
   runtime::program program_;
-  runtime::kernel trace_, mean_;
-  runtime::buffer<texel> samples_;
+  runtime::kernel mark_, list_, trace_, mean_;
+  runtime::buffer<texel> samples_;  ///< none where a pixel has one
+  runtime::buffer<std::uint32_t> marks_, groups_;
+  runtime::buffer<Faults> untold_;    ///< of the rays that tell what takes long
+  std::vector<runtime::event> done_;  ///< of the last tile
 };
 
 }  // namespace facet::tracer

@@ -19,7 +19,7 @@ struct tuning : choices {
   bool serial_trees = true;  ///< a work-item builds a tree alone (cl/serial_tree.cl), not a group
   std::uint32_t list_group = 1, list_each = 1024,
                 scan_group = 1;    ///< of cl/subtrees.cl; powers of 2
-  bool samples_apart = false;      ///< a pixel's samples by a work-item each (cl/render_samples.cl)
+  bool samples_apart = false;      ///< a work-item for each sample (cl/render_samples.cl)
   std::uint32_t split_group = 64;  ///< that splits a range of the top tree; at least 64
   std::uint32_t refit_group = 1,
                 refit_nodes = 1024;  ///< of cl/refit.cl: nodes of a treelet at most

@@ -122,35 +122,51 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "a work-item for each sample: the same picture, in tiles too, and only where there are "
-    "several") {
+    "a work-item for each sample, those that come to glass first: the same picture, in tiles too") {
   scene s = test::every_feature();
-  s.samples = 3;
   options together;
   together.packets = tracer::packet_kind::off;
   together.samples_apart = false;
-  const picture expected = render(s, together);
   options apart = together;
   apart.samples_apart = true;
-  for (const bool in_tiles : {false, true}) {
-    CAPTURE(in_tiles);
-    if (in_tiles) apart.tile_width = 17, apart.tile_height = 13;
+  options in_tiles = apart;
+  in_tiles.tile_width = 17, in_tiles.tile_height = 13;
+  for (const std::uint32_t samples : {3, 1}) {
+    CAPTURE(samples);
+    s.samples = samples;
+    const picture expected = render(s, together);
     CHECK(same_bits(render(s, apart), expected));
+    CHECK(same_bits(render(s, in_tiles), expected));
+    options wrong = apart;
+    wrong.edits = {{"render_samples.cl", "all + own - before", "all"}};
+    CHECK_FALSE(same_bits(render(s, wrong), expected));
+    wrong.edits = {{"render_samples.cl", "columns + n * x + i]", "columns + n * x]"}};
+    CHECK(same_bits(render(s, wrong), expected) == (samples == 1));
   }
-  const auto file_of = [](const scene& what, const options& o) {
-    return device_scene(test::queue(), what, o).describe_render(2).text;
-  };
-  const char* const kernel = "__kernel void render_samples(";
-  CHECK(file_of(s, apart).find(kernel) != std::string::npos);
-  CHECK(file_of(s, together).find(kernel) == std::string::npos);
-  options in_groups = apart;
+}
+
+TEST_CASE(
+    "a work-item is for a sample where pixels have several, or rays part, and no group is asked "
+    "for") {
+  scene s = test::every_feature();
+  options apart;
+  apart.packets = tracer::packet_kind::off;
+  apart.samples_apart = true;
+  options together = apart, in_groups = apart;
+  together.samples_apart = false;
   in_groups.group_width = in_groups.group_height = 4;
-  CHECK(file_of(s, in_groups).find(kernel) == std::string::npos);
-  // Samples that are added up twice are not the same.
-  apart.edits = {{"render_samples.cl", "columns + n * x + i]", "columns + n * x]"}};
-  CHECK_FALSE(same_bits(render(s, apart), expected));
-  s.samples = 1;
-  CHECK(file_of(s, apart).find(kernel) == std::string::npos);
+  const auto is_apart = [&](const options& o) {
+    return device_scene(test::queue(), s, o)
+               .describe_render(2)
+               .text.find("__kernel void render_samples(") != std::string::npos;
+  };
+  CHECK(is_apart(apart));
+  CHECK_FALSE(is_apart(together));
+  CHECK_FALSE(is_apart(in_groups));
+  for (material& m : s.materials) m.Kt = {0, 0, 0};
+  CHECK_FALSE(is_apart(apart));
+  s.samples = 2;
+  CHECK(is_apart(apart));
 }
 
 TEST_CASE("leaving out what a scene does not use changes no bit, feature by feature") {
