@@ -17,7 +17,6 @@ TIMES = "\N{MULTIPLICATION SIGN}"
 WAYS = {
     "default": (style.BLUE, "o", "-"),
     "single": (style.VERMILION, "s", "--"),
-    "split": (style.GREEN, "^", "-."),
     "all-features": (style.PURPLE, "d", ":"),
     "narrow": (style.ORANGE, "v", "-."),
     "image": (style.BLACK, "x", "--"),

@@ -1,6 +1,6 @@
 // Row `render`: whole pictures on a device, of each width and depth that is asked for, by several
 // ways, all in turns; rays counted by kind. A picture is one tile if the device has room for its
-// rays.
+// samples.
 #include <algorithm>
 #include <cstdio>
 #include <memory>
@@ -55,10 +55,8 @@ way way_of(const std::string& name, const settings& o) {
   w.options.group_width = o.group_width, w.options.group_height = o.group_height;
   if (name == "single") {
     w.options.packets = tracer::packet_kind::off;
-    w.options.split = tracer::split_kind::off;
     w.options.samples_apart = false;
   }
-  if (name == "split") w.options.split = tracer::split_kind::on;
   if (name == "all-features") w.options.all_features = true;
   if (name == "narrow") w.options.layout = tracer::layout_kind::narrow;
   if (name == "image") w.options.geometry = tracer::geometry_kind::image;
@@ -105,12 +103,10 @@ json figures_of(const way& w, const std::string& name, const scene& s, shape p,
           {"layout", w.stats.layout},
           {"geometry", w.stats.geometry},
           {"pixels_a_work_item", w.stats.rays_a_work_item},
-          {"split", w.stats.is_split},
           {"tiles", w.stats.tiles},
           {"rays", {{"eye", rays.eye}, {"bounced", rays.bounced}, {"shadow", rays.shadow}}},
           {"kernel_ms", spread(w.kernel_ms)},
           {"wall_ms", spread(w.wall_ms)},
-          {"parts_ms", w.stats.parts_ms},
           {"mrays_per_s", double(rays.total()) / kernel.median * 1e-3},
           {"build_ms", w.stats.build_ms},
           {"compile_ms", w.stats.compile_ms},
@@ -129,7 +125,7 @@ picture render(tracer::device_scene& on, shape p, tracer::statistics& stats) {
 }
 
 /// One picture by each way, and its rays counted. The entry has device scenes of its own: kernels
-/// depend on the depth they were last compiled for, and memory for rays on the largest picture.
+/// depend on the depth they were last compiled for, and memory for samples on the largest picture.
 entry prepared(const scene& s, shape p, runtime::queue& queue, const settings& o) {
   entry e{p, {}, {}};
   picture first;
@@ -214,10 +210,8 @@ void add_render_row(CLI::App& app) {
                   "OBJ files, each between a glass and a mirror sphere on a reflecting floor")
       ->check(CLI::ExistingFile);
   row->add_option("--way", o->ways,
-                  "single: one kernel, a pixel a work-item; split: launches by depth; "
-                  "all-features: nothing\n"
-                  "left out of the kernel")
-      ->check(CLI::IsMember({"default", "single", "split", "all-features", "narrow", "image"}))
+                  "single: a pixel a work-item; all-features: nothing left out of the kernel")
+      ->check(CLI::IsMember({"default", "single", "all-features", "narrow", "image"}))
       ->capture_default_str();
   row->add_option("--device", o->device, "index, or part of a name")->capture_default_str();
   row->add_option("--kernels", o->kernels, "read cl/ from this folder");

@@ -141,14 +141,6 @@ struct FACET_ALIGNED Hit {
   uint triangle;
 };
 
-// A ray of a picture, as its sample is summed up (ray_tree.h): the light that comes along it, but for that of
-// the rays that follow it, and those, first the one that is followed first, FACET_NONE if there is none.
-struct FACET_PAIR RayNode {
-  float light[3];
-  float alpha;  // of an eye ray: the sample's
-  uint first, second;
-};
-
 // What a kernel could not do, counted, so that the host can say it.
 struct FACET_ALIGNED Faults {
   uint refused;  // rays, or their ways through an instance, that triangle.h's space_of refused
@@ -210,7 +202,6 @@ typedef struct View View;
 typedef struct World World;
 typedef struct Ray Ray;
 typedef struct Hit Hit;
-typedef struct RayNode RayNode;
 typedef struct Faults Faults;
 typedef struct SurfacePoint SurfacePoint;
 typedef struct Passage Passage;
@@ -227,7 +218,6 @@ FACET_SIZE(View, 128)
 FACET_SIZE(World, 32)
 FACET_SIZE(Ray, 32)
 FACET_SIZE(Hit, 16)
-FACET_SIZE(RayNode, 24)
 FACET_SIZE(Faults, 16)
 FACET_SIZE(SurfacePoint, 160)
 FACET_SIZE(Passage, 32)

@@ -68,27 +68,21 @@ typedef struct {
   float scale;  // what its distance leaves of it
 } Lighting;
 
-// False if it stands behind the surface.
-static inline bool stands_before(__global const Light* light, const Surface* f, Lighting* to) {
+// False if it stands behind the surface. `media` surround the ray that met it.
+static inline bool faces_light(const Scene* s, __global const Light* light, const Surface* f,
+                               __global const Material* m, Media media, Lighting* to) {
+  const bool is_point = light->kind == FACET_POINT_LIGHT;
   const float3 place = vec_global(light->position);
   to->l = place;
   to->scale = 1.0f;
-  if (light->kind == FACET_POINT_LIGHT) {
+  if (is_point) {
     const float3 way = place - f->p;
     const float distance = length3(way);
     to->l = way / distance;
     to->scale = falloff(light, distance);
   }
   to->facing = dot3(f->shading, to->l);
-  return to->facing > 0.0f;
-}
-
-// The way to it, if it does not. `media` surround the ray that met the surface.
-static inline bool faces_light(const Scene* s, __global const Light* light, const Surface* f,
-                               __global const Material* m, Media media, Lighting* to) {
-  if (!stands_before(light, f, to)) return false;
-  const bool is_point = light->kind == FACET_POINT_LIGHT;
-  const float3 place = vec_global(light->position);
+  if (!(to->facing > 0.0f)) return false;
 
   // A light that only the shading normal sees stands behind the surface: its way starts there.
   const bool is_above = dot3(f->geometric, to->l) > 0.0f;

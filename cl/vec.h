@@ -10,7 +10,6 @@
 
 #define FACET_ULP 5.9604644775390625e-8f  // 2^-24: the unit roundoff of float
 
-static inline float3 vec(const float a[3]) { return (float3)(a[0], a[1], a[2]); }
 static inline float3 vec_global(__global const float* a) { return (float3)(a[0], a[1], a[2]); }
 static inline float3 vec_constant(__constant const float* a) { return (float3)(a[0], a[1], a[2]); }
 

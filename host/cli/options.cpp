@@ -123,17 +123,6 @@ void add_tracing(CLI::App& app, tracing_options& target) {
   add_no_tuning(app, target.no_tuning);
 }
 
-void add_split(CLI::App& app, tracer::options& target) {
-  add_choice<tracer::split_kind>(
-      app, "--split", target.split,
-      {{"auto", tracer::split_kind::automatic},
-       {"on", tracer::split_kind::on},
-       {"off", tracer::split_kind::off}},
-      "A picture's rays of one depth are traced and shaded by launches of their own, or a\n"
-      "pixel's all by one work-item (default auto: as tuned, or on GPUs; if rays are reflected or\n"
-      "refracted, and unless a work-group is given)");
-}
-
 void refuse_with_serial(const CLI::App& app, std::initializer_list<const char*> names) {
   for (const char* name : names)
     if (app.count(name) > 0)

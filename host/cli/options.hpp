@@ -47,9 +47,6 @@ void add_no_tuning(CLI::App& app, bool& target);
 /// --device, --tree, --packets, --geometry, --layout, --no-tuning, --kernels, --all-features
 void add_tracing(CLI::App& app, tracing_options& target);
 
-/// --split
-void add_split(CLI::App& app, tracer::options& target);
-
 /// Refuses options that mean nothing to the serial tracer: a study must not believe that they did.
 void refuse_with_serial(const CLI::App& app, std::initializer_list<const char*> names);
 

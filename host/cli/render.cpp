@@ -140,12 +140,8 @@ void write_stats(const arguments& o, picture_shape p, const tracer::statistics& 
 
 int run(const arguments& o) {
   if (o.tracing.serial())
-    refuse_with_serial(*o.app, {"--tree", "--packets", "--split", "--geometry", "--kernels",
-                                "--all-features", "--no-tuning", "--work-group", "--tile-size"});
-  if (o.tracing.tracer.split == tracer::split_kind::on && o.app->count("--work-group") > 0)
-    throw usage_error(
-        "--work-group is that of the kernel for whole pixels, which --split on does not use; leave "
-        "one of them out");
+    refuse_with_serial(*o.app, {"--tree", "--packets", "--geometry", "--kernels", "--all-features",
+                                "--no-tuning", "--work-group", "--tile-size"});
   check_outputs(o);
   const scene s = placed(load_scene(o.scene));
   o.say.notes(s.notes);
@@ -195,7 +191,6 @@ command add_render(CLI::App& program) {
                "Curve of a .png (default srgb); linear is the plain x255.\n"
                ".exr and .npy are linear and not clamped");
   add_tracing(*app, o->tracing);
-  add_split(*app, o->tracing.tracer);
   add_size(*app, "--work-group", o->group, side,
            "Work-items of a group (default: as tuned, or by the kind of device)");
   add_size(*app, "--tile-size", o->tile, side,

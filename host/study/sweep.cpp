@@ -93,7 +93,6 @@ class run {
   static tracer::options options_for(const experiment& e, const sweep_settings& s) {
     tracer::options o = s.tracer;
     o.packets = tracer::packet_kind::off;  // a pixel a work-item
-    o.split = tracer::split_kind::off;
     o.tree = e.tree;
     if (o.tile_width == 0) o.tile_width = e.width, o.tile_height = e.height;
     return o;

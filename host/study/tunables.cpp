@@ -10,9 +10,6 @@ using tracer::choices;
 using values = std::vector<choices>;
 
 bool is_by_packets(const choices& c) { return c.wide_layout && c.packets; }
-bool is_by_several_kernels(const choices& c, const tuning_workload& w) {
-  return w.is_picture && w.has_followers && c.split_render;
-}
 
 // layout, with where triangles are read from, and whether by packets, since one asks for another.
 
@@ -29,14 +26,6 @@ values layouts(const choices& so_far, const runtime::device& d) {
 std::string layout_text(const choices& c) {
   if (c.wide_layout) return c.packets ? "wide, packets" : "wide";
   return c.image_geometry ? "narrow, image" : "narrow, buffer";
-}
-
-// split.
-
-values splits(const choices& so_far, const runtime::device&) {
-  values all(2, so_far);
-  all[0].split_render = false, all[1].split_render = true;
-  return all;
 }
 
 // Work-groups.
@@ -88,23 +77,17 @@ values leaves(const choices& so_far, const runtime::device&) {
 // Which workloads each matters to.
 
 bool to_all(const choices&, const tuning_workload&) { return true; }
-bool to_branching_pictures(const choices&, const tuning_workload& w) {
-  return w.is_picture && w.has_followers;
-}
-bool to_packets(const choices& c, const tuning_workload& w) {
-  return is_by_packets(c) && !is_by_several_kernels(c, w);
-}
+bool to_packets(const choices& c, const tuning_workload&) { return is_by_packets(c); }
 bool to_rays_alone(const choices& c, const tuning_workload& w) {
-  return is_by_several_kernels(c, w) || (!w.is_picture && !is_by_packets(c));
+  return !w.is_picture && !is_by_packets(c);
 }
 bool to_whole_pixels(const choices& c, const tuning_workload& w) {
-  return w.is_picture && !is_by_packets(c) && !is_by_several_kernels(c, w);
+  return w.is_picture && !is_by_packets(c);
 }
 bool to_narrow(const choices& c, const tuning_workload&) { return !c.wide_layout; }
 
 // How values are printed.
 
-std::string split_text(const choices& c) { return c.split_render ? "on" : "off"; }
 std::string packet_group_text(const choices& c) { return std::to_string(c.packet_group); }
 std::string group_text(const choices& c) { return std::to_string(c.group); }
 std::string render_group_text(const choices& c) {
@@ -115,23 +98,18 @@ std::string leaves_text(const choices& c) {
   return std::to_string(c.leaf_sure) + " to " + std::to_string(c.leaf_size);
 }
 
-constexpr bool by_events = false, by_host_clock = true;
-
 const tunable all_tunables[] = {
     {"layout", "nodes of two children or of eight, in buffers or images; rays alone or in packets",
-     layouts, to_all, by_events, layout_text},
-    {"split", "a picture by one kernel, or by several, depth after depth", splits,
-     to_branching_pictures, by_host_clock, split_text},
+     layouts, to_all, layout_text},
     {"packet_group", "work-items a group of kernels by packets", packet_groups, to_packets,
-     by_events, packet_group_text},
-    {"group", "work-items a group of kernels over rays", groups, to_rays_alone, by_events,
-     group_text},
+     packet_group_text},
+    {"group", "work-items a group of kernels over rays", groups, to_rays_alone, group_text},
     {"render_group", "work-items a group of the kernel for whole pixels", render_groups,
-     to_whole_pixels, by_events, render_group_text},
+     to_whole_pixels, render_group_text},
     {"registers", "the most that NVIDIA's compiler gives a work-item; 0: as many as it likes",
-     registers, to_all, by_events, registers_text},
+     registers, to_all, registers_text},
     {"leaves", "triangles that are a leaf at once, and those that it has at most (narrow layout)",
-     leaves, to_narrow, by_events, leaves_text},
+     leaves, to_narrow, leaves_text},
 };
 
 }  // namespace

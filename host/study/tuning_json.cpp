@@ -6,7 +6,6 @@
 #include "scene/text_file.hpp"
 #include "study/json_text.hpp"
 #include "study/result_json.hpp"
-#include "study/tunables.hpp"
 
 namespace facet::study {
 namespace {
@@ -28,7 +27,6 @@ json to_json(const tracer::choices& c) {
   return {{"layout", c.wide_layout ? "wide" : "narrow"},
           {"geometry", c.image_geometry ? "image" : "buffer"},
           {"packets", c.packets},
-          {"split", c.split_render},
           {"packet_group", c.packet_group},
           {"group", c.group},
           {"render_group", {c.render_group_width, c.render_group_height}},
@@ -78,7 +76,6 @@ json to_json(const trial& t, bool is_kept) {
 
 json to_json(const choice_result& c, const std::vector<workload_facts>& workloads) {
   json j{{"name", c.name}, {"taken", c.trials[c.taken].value}};
-  j["pictures_by"] = tunable_of(c.name).by_host_clock ? "host clock" : "device events";
   j["workloads"] = json::array();
   for (const std::uint32_t w : c.workloads) j["workloads"].push_back(workloads[w].name);
   j["trials"] = json::array();

@@ -111,7 +111,7 @@ class tuning_under_way {
     const tuning_scene& s = scenes_[k];
     tracer::options o = settings_.tracer;
     o.defaults = as;
-    o.tile_width = s.width, o.tile_height = s.height;  // a picture is one launch, or one a depth
+    o.tile_width = s.width, o.tile_height = s.height;  // a picture is one tile
     return tracer::device_scene(queue_, s.what, o);
   }
 
@@ -171,8 +171,7 @@ class tuning_under_way {
                               " of \"" + w.name + "\" are not those of the defaults, the first " +
                               "number " + std::to_string(d.first));
     if (watch_.on_run) watch_.on_run(c.name, ++runs_, most_runs_);
-    return w.is_picture && tunable_of(c.name).by_host_clock ? stats.wall_ms
-                                                            : summarize(stats.kernel_ms).median;
+    return summarize(stats.kernel_ms).median;
   }
 
   void warm_up(choice_result& c, std::size_t k, contestant& on) {

@@ -25,7 +25,7 @@ bool is_word(const json_node& at, const std::string& yes, const std::string& no)
 }
 
 tracer::choices values_in(const json_node& v) {
-  v.check_keys("the values", {"layout", "geometry", "packets", "split", "packet_group", "group",
+  v.check_keys("the values", {"layout", "geometry", "packets", "packet_group", "group",
                               "render_group", "trace_registers", "leaf_sure", "leaf_size"});
   const auto whole = [&](const char* key, std::uint32_t least) {
     return v.at(key, "a whole number").whole(least, most);
@@ -34,7 +34,6 @@ tracer::choices values_in(const json_node& v) {
   c.wide_layout = is_word(v.at("layout", "a layout"), "wide", "narrow");
   c.image_geometry = is_word(v.at("geometry", "a geometry"), "image", "buffer");
   c.packets = v.at("packets", "true or false").boolean();
-  c.split_render = v.at("split", "true or false").boolean();
   c.packet_group = whole("packet_group", 1);
   c.group = whole("group", 1);
   const json_node sides = v.at("render_group", "a width and a height");

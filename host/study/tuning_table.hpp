@@ -17,7 +17,7 @@
 namespace facet::study {
 
 inline constexpr const char* tuning_format = "facet-tuning";
-inline constexpr std::uint32_t tuning_version = 1;
+inline constexpr std::uint32_t tuning_version = 2;
 
 /// A table that cannot be used at all. The message names the file, the place in it, what was found
 /// and what is allowed, and what to do.

@@ -11,7 +11,6 @@
 #include "scene/placed.hpp"
 #include "scene/world_bounds.hpp"
 #include "study/still_life.hpp"
-#include "tracer/features.hpp"
 #include "tracer/layout.hpp"
 
 namespace facet::study {
@@ -119,8 +118,6 @@ std::vector<tuning_workload> workloads_of(tracer::device_scene& on, const tuning
     w.scene = index;
     w.is_picture = true;
     w.width = s.width, w.height = s.height, w.max_depth = s.what.max_depth;
-    const tracer::features f = tracer::features::of(s.what);
-    w.has_followers = f.reflection || f.transparency;
   }
   if (!s.with_rays) return all;
   tuning_workload eye = of_rays(s, index, "eye"), shadow = of_rays(s, index, "shadow"),

@@ -30,7 +30,6 @@ struct tuning_workload {
   std::vector<tracer::ray> rays;                       ///< but for pictures
   bool any = false;                                    ///< any hit ends a ray
   std::uint32_t width = 0, height = 0, max_depth = 0;  ///< of a picture
-  bool has_followers = false;                          ///< rays are reflected or refracted
 };
 
 /// One ray through the centre of each pixel; those of a packet's pixels are neighbours, as a

@@ -13,7 +13,6 @@ struct choices {
   bool wide_layout = false;        ///< what layout_kind::automatic means, but for images
   bool image_geometry = false;     ///< what geometry_kind::automatic means, but in the wide layout
   bool packets = false;            ///< what packet_kind::automatic means, if they can be
-  bool split_render = false;       ///< what split_kind::automatic means
   std::uint32_t packet_group = 4;  ///< work-items a group of kernels whose work-items take packets
   std::uint32_t group = 64;        ///< of the other one-dimensional kernels
   std::uint32_t render_group_width = 8,

@@ -1,12 +1,10 @@
 // Pictures, tile by tile: device_scene::render.
 #include <algorithm>
-#include <functional>
 
 #include "scene/error.hpp"
 #include "scene/media.hpp"
 #include "tracer/launch.hpp"
 #include "tracer/sample_render.hpp"
-#include "tracer/split_render.hpp"
 #include "tracer/state.hpp"
 #include "tracer/stopwatch.hpp"
 #include "tracer/tiler.hpp"
@@ -56,17 +54,6 @@ void check_size(std::uint32_t width, std::uint32_t height, std::uint32_t max_dep
                           std::to_string(limits::max_depth) + " is allowed");
 }
 
-/// The one that there is, or another where that does not suffice.
-template <class Renderer>
-Renderer& kept(std::shared_ptr<Renderer>& one, device_scene::state& s, std::uint32_t max_depth,
-               std::uint64_t pixels) {
-  if (!one || !one->suffices(max_depth, pixels)) {
-    one.reset();  // its memory is free before more is asked for
-    one = std::make_shared<Renderer>(s, max_depth, pixels);
-  }
-  return *one;
-}
-
 }  // namespace
 
 runtime::program device_scene::state::compiled_to_render(const char* file,
@@ -85,18 +72,6 @@ runtime::kernel device_scene::state::render_kernel(std::uint32_t max_depth) {
   return render_program->get_kernel("render");
 }
 
-bool device_scene::state::is_split() const {
-  if (chosen.split != split_kind::automatic) return chosen.split == split_kind::on;
-  // A work-group that was asked for is that of the kernel for whole pixels. It is also the faster
-  // one where no ray follows another.
-  return tuned.split_render && (used.reflection || used.transparency) && chosen.group_width == 0 &&
-         !chosen.driver_group;
-}
-
-split_renderer& device_scene::state::split_kernels(std::uint32_t max_depth, std::uint64_t pixels) {
-  return kept(split, *this, max_depth, pixels);
-}
-
 bool device_scene::state::has_samples_apart() const {
   return chosen.samples_apart.value_or(tuned.samples_apart) &&
          (model.samples > 1 || used.transparency) && chosen.group_width == 0 &&
@@ -105,7 +80,11 @@ bool device_scene::state::has_samples_apart() const {
 
 sample_renderer& device_scene::state::sample_kernels(std::uint32_t max_depth,
                                                      std::uint64_t pixels) {
-  return kept(apart, *this, max_depth, pixels);
+  if (!apart || !apart->suffices(max_depth, pixels)) {
+    apart.reset();  // its memory is free before more is asked for
+    apart = std::make_shared<sample_renderer>(*this, max_depth, pixels);
+  }
+  return *apart;
 }
 
 const char* device_scene::state::render_file() const {
@@ -121,7 +100,6 @@ std::uint32_t device_scene::state::set_picture(runtime::handler& h, runtime::buf
 
 kernel_description device_scene::describe_render(std::uint32_t max_depth) {
   state& s = *state_;
-  if (s.is_split()) return s.split_kernels(max_depth, 1).describe();
   if (s.has_samples_apart()) return s.sample_kernels(max_depth, 1).describe();
   const runtime::kernel kernel = s.render_kernel(max_depth);
   return {runtime::expand(s.kernels, s.render_file()), s.render_program->options(),
@@ -141,7 +119,10 @@ picture device_scene::render(std::uint32_t width, std::uint32_t height, std::uin
   const std::uint64_t total = std::uint64_t(width) * height;
   runtime::buffer<View> view_buffer(&view, 1);
   runtime::buffer<texel> pixels(total);
-  const auto by_one_kernel = [&](const tile& t) {
+  sample_renderer* const apart =
+      s.has_samples_apart() ? &s.sample_kernels(max_depth, total) : nullptr;
+  const auto render_tile = [&](const tile& t) {
+    if (apart) return apart->render(t, view_buffer, pixels);
     const runtime::kernel kernel = s.render_kernel(max_depth);
     const runtime::event done = s.queue.submit([&](runtime::handler& g) {
       std::uint32_t k = s.set_picture(g, view_buffer);
@@ -152,51 +133,16 @@ picture device_scene::render(std::uint32_t width, std::uint32_t height, std::uin
     done.wait_and_throw();
     return done.milliseconds();
   };
-  split_renderer* const split = s.is_split() ? &s.split_kernels(max_depth, total) : nullptr;
-  sample_renderer* const apart =
-      !split && s.has_samples_apart() ? &s.sample_kernels(max_depth, total) : nullptr;
-  std::uint64_t refused = 0, crowded = 0;
-  std::map<std::string, double> parts_ms;
-  const auto take_faults = [&] {
-    const Faults f = s.read_faults();
-    refused += f.refused, crowded += f.crowded;
-    s.clear_faults();
-  };
-  const std::function<double(const tile&)> render_tile = [&](const tile& t) {
-    if (apart) return apart->render(t, view_buffer, pixels);
-    if (!split) return by_one_kernel(t);
-    std::map<std::string, double> ms;
-    if (split->render(t, view_buffer, pixels, ms)) {
-      take_faults();
-      double sum = 0;
-      for (const auto& [name, one] : ms) sum += one, parts_ms[name] += one;
-      return sum;
-    }
-    // More rays than there is room for: again in parts, the smallest by the kernel that needs no
-    // room.
-    s.clear_faults();
-    if (t.width() <= FACET_PACKET_COLUMNS && t.height() <= FACET_PACKET_ROWS) {
-      const double alone = by_one_kernel(t);
-      take_faults();
-      return alone;
-    }
-    const auto [first, second] = halves(t, FACET_PACKET_COLUMNS, FACET_PACKET_ROWS);
-    return render_tile(first) + render_tile(second);
-  };
 
   // The first launch of a work-group size may compile (PoCL does): one pixel pays for it.
   render_tile({0, 0, 1, 1});
   s.clear_faults();
-  refused = crowded = 0;
-  parts_ms.clear();
   const auto start = clock::now();
   std::uint64_t done = 0;
   double kernel_ms = 0;
   std::uint32_t tiles = 0;
   tiler tiles_left(width, height, s.chosen, std::max(1u, group.height) * item.height,
-                   split   ? split->most_pixels()
-                   : apart ? apart->most_pixels()
-                           : total);
+                   apart ? apart->most_pixels() : total);
   for (tile t{}; tiles_left.next(t);) {
     if (cancel && cancel->load()) throw cancelled(done, total);
     const double ms = render_tile(t);
@@ -215,15 +161,12 @@ picture device_scene::render(std::uint32_t width, std::uint32_t height, std::uin
     s.describe(*stats);
     stats->kernel_ms = {kernel_ms};
     stats->rays = total * s.model.samples * s.model.samples;
-    stats->is_split = split;
-    stats->parts_ms = parts_ms;
-    stats->group_width = split ? s.tuned.group : group.width;
-    stats->group_height = split ? 1 : group.height;
-    if (split) stats->rays_a_work_item = 1;
+    stats->group_width = group.width;
+    stats->group_height = group.height;
     stats->tiles = tiles;
-    take_faults();
-    stats->refused = refused;
-    stats->crowded = crowded;
+    const Faults faults = s.read_faults();
+    stats->refused = faults.refused;
+    stats->crowded = faults.crowded;
     stats->wall_ms = milliseconds_since(start);
   }
   return result;

@@ -13,7 +13,6 @@ namespace facet::tracer {
 
 class sample_renderer;
 class scene_mover;
-class split_renderer;
 
 struct device_scene::state {
   runtime::queue queue;
@@ -32,8 +31,7 @@ struct device_scene::state {
   runtime::buffer<Faults> faults;
   std::optional<runtime::program> trace_program, refilled_program, render_program, probe_program;
   std::uint32_t render_stack = 0;  ///< entries of pending rays that render_program was built for
-  std::shared_ptr<split_renderer> split = nullptr;   ///< of the last picture by several kernels
-  std::shared_ptr<sample_renderer> apart = nullptr;  ///< of the last one by a work-item a sample
+  std::shared_ptr<sample_renderer> apart = nullptr;  ///< of the last picture by samples apart
   std::shared_ptr<scene_mover> mover = nullptr;      ///< from the first move on
 
   /// Compiles on first use, and again where a deeper picture needs a larger stack of pending rays.
@@ -43,10 +41,8 @@ struct device_scene::state {
   runtime::program compiled_to_render(const char* file, std::uint32_t max_depth) const;
   runtime::kernel render_kernel(std::uint32_t max_depth);
   const char* render_file() const;
-  /// Whether the next picture is made by several kernels; they, for so many pixels at once.
-  bool is_split() const;
-  split_renderer& split_kernels(std::uint32_t max_depth, std::uint64_t pixels);
-  /// Whether, if not, it is by a work-item for each sample; likewise.
+  /// Whether the next picture is made by a work-item for each sample; its kernels, for so many
+  /// pixels at once.
   bool has_samples_apart() const;
   sample_renderer& sample_kernels(std::uint32_t max_depth, std::uint64_t pixels);
   runtime::kernel probe_kernel(const char* name);

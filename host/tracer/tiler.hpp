@@ -1,4 +1,4 @@
-// A picture in parts: each is one launch, or a few.
+// A picture in parts: each is one launch, or two.
 #pragma once
 
 #include <algorithm>

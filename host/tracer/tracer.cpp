@@ -184,7 +184,6 @@ void device_scene::state::forget_programs() {
   refilled_program.reset();
   render_program.reset();
   probe_program.reset();
-  split.reset();
   apart.reset();
 }
 

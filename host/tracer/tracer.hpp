@@ -5,7 +5,6 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -33,10 +32,6 @@ enum class layout_kind { automatic, narrow, wide };
 /// they stay close, or one. It can in the wide layout, with a tree.
 enum class packet_kind { automatic, on, off };
 
-/// Whether a picture's rays of one depth are traced and shaded by launches of their own
-/// (split_render.hpp), or each pixel's all by one work-item. The picture is the same.
-enum class split_kind { automatic, on, off };
-
 /// Whether the work-items of a warp take new rays while others of it are on their way
 /// (cl/refill.h), or each has one ray. They can in the narrow layout, with a tree. Hits are the
 /// same. Of `trace` alone; automatic: for any hit, and where a sample of
@@ -53,7 +48,6 @@ struct options {
   geometry_kind geometry = geometry_kind::automatic;
   layout_kind layout = layout_kind::automatic;
   packet_kind packets = packet_kind::automatic;
-  split_kind split = split_kind::automatic;
   /// A work-item for each sample, those that are likely to take long first, where pixels have
   /// several or rays part at glass and none go in packets; none: on GPUs. Not where a work-group is
   /// asked for.
@@ -62,7 +56,6 @@ struct options {
   std::uint32_t group_width = 0, group_height = 0;  ///< work-group; 0: the device's default
   bool driver_group = false;                        ///< the driver chooses the work-group instead
   std::uint32_t tile_width = 0, tile_height = 0;    ///< pixels a launch; 0: about 50 ms each
-  std::uint64_t split_rays = 0;                     ///< room for so many; 0: by picture and device
   bool movable = false;                             ///< see device_scene::move_vertices, place
   bool starts_soon = false;                         ///< a CPU compiles less, and may build longer
   bool all_features = false;                        ///< compile what the scene does not need, too
@@ -132,17 +125,13 @@ struct statistics {
   double upload_ms = 0;           ///< packing and moving the scene, host clock
   double build_ms = 0;            ///< tree, host clock from first launch to last
   std::vector<double> kernel_ms;  ///< trace: one a repeat; render: the sum over the tiles, once
-  /// Of a picture by several kernels: what each took, by name and depth or light, all tiles
-  /// together.
-  std::map<std::string, double> parts_ms;
-  double wall_ms = 0;      ///< first timed launch until the result is on the host
-  std::uint64_t rays = 0;  ///< trace: those given; render: eye rays
+  double wall_ms = 0;             ///< first timed launch until the result is on the host
+  std::uint64_t rays = 0;         ///< trace: those given; render: eye rays
   std::uint32_t group_width = 0, group_height = 0;  ///< 0 where the driver chose
   std::uint32_t tiles = 0;
   std::string geometry;                ///< "image" or "buffer", as chosen
   std::string layout;                  ///< "wide" or "narrow", as chosen
   std::uint32_t rays_a_work_item = 1;  ///< or pixels
-  bool is_split = false;               ///< render: by several kernels
   bool is_refilled = false;            ///< trace: as refill_kind has it
   bool is_tuned = false;               ///< by options::defaults, not by the kind of device
   std::string features;                ///< what the kernel was compiled with, comma-separated

@@ -32,9 +32,9 @@ TEST_CASE("a bench takes a table's values for its device, and refuses a table wi
   CHECK(usual["settings"]["tuned"] == false);
 
   const auto write_table = [&](const std::string& name) {
-    json table = json::parse(R"({"format": "facet-tuning", "version": 1, "devices": [
+    json table = json::parse(R"({"format": "facet-tuning", "version": 2, "devices": [
       {"device": {}, "date": "2026-01-01T00:00:00Z",
-       "values": {"layout": "narrow", "geometry": "image", "packets": false, "split": false,
+       "values": {"layout": "narrow", "geometry": "image", "packets": false,
                   "packet_group": 4, "group": 64, "render_group": [8, 8], "trace_registers": 0,
                   "leaf_sure": 2, "leaf_size": 4}}]})");
     for (const char* key : {"name", "platform", "driver"})

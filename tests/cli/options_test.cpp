@@ -86,12 +86,6 @@ TEST_CASE("choices name what is allowed") {
   CHECK(contains(refused({"--transfer", "gamma"}), "linear|srgb"));
 }
 
-TEST_CASE("a work-group is not asked for together with kernels that do not use it") {
-  const std::string said = refused({"--split", "on", "--work-group", "8x8"});
-  CHECK(contains(said, "--work-group"));
-  CHECK(contains(said, "--split on"));
-}
-
 TEST_CASE("unknown options are named") { CHECK(contains(refused({"--colour"}), "--colour")); }
 
 TEST_CASE("what means nothing to the serial tracer is refused, not ignored") {

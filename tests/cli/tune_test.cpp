@@ -48,7 +48,7 @@ const json& tuned_table() {
 json changed_table(const std::function<void(json& entry)>& change) {
   json file = tuned_table();
   json& v = file["devices"][0]["values"];
-  v["layout"] = "narrow", v["geometry"] = "buffer", v["packets"] = false, v["split"] = false;
+  v["layout"] = "narrow", v["geometry"] = "buffer", v["packets"] = false;
   v["render_group"] = {2, 3};
   change(file["devices"][0]);
   return file;
@@ -105,7 +105,6 @@ TEST_CASE("a later render takes the table's values, and gives the same bits") {
   CHECK(usual.stats["tuned"] == false);
   CHECK(tuned.stats["tuned"] == true);
   CHECK(tuned.stats["layout"] == "narrow");
-  CHECK(tuned.stats["split"] == false);
   CHECK(tuned.stats["work_group"] == json({2, 3}));
   CHECK(contains(tuned.said.err, "tuned: 2"));
   CHECK(!usual.picture.empty());
@@ -161,7 +160,7 @@ TEST_CASE("another device's entry is not taken; one under another driver is not,
 TEST_CASE("a table that cannot be used is an error that says which and what to do: exit code 3") {
   if (!has_device()) return;
   json later = tuned_table();
-  later["version"] = 2;
+  later["version"] = 3;
   const std::string whole = changed_table([](json&) {}).dump();
   for (const std::string& table :
        {std::string("not JSON"), whole.substr(0, whole.size() / 2), later.dump(),
@@ -281,8 +280,8 @@ TEST_CASE("it measures on the scenes that are named") {
   const temporary_folder folder;
   put(folder / "s.json", small_scene());
   const outcome o =
-      tune(folder / "t.json", {"--quick", "--only", "split", "--width", "64", "--scenes",
-                               (folder / "s.json").string(), "torus_knot:p=3,q=4"});
+      tune(folder / "t.json", {"--quick", "--only", "group,packet_group", "--width", "64",
+                               "--scenes", (folder / "s.json").string(), "torus_knot:p=3,q=4"});
   CAPTURE(o.err);
   REQUIRE(o.code == 0);
   const json file = json::parse(content_of(folder / "t.json"));

@@ -36,7 +36,7 @@ for target in spir64-unknown-unknown nvptx64-nvidia-nvcl amdgcn-amd-amdhsa; do
     is_outer "$set" ${#flags[@]} || as=check
     [[ $as == code || $target == spir64* ]] || continue
     echo "$target $as render.cl$options"
-    [[ $as == check ]] || printf "%s\n" "$target $as "{render_samples,render_split}".cl$options"
+    [[ $as == check ]] || echo "$target $as render_samples.cl$options"
     echo "$target $as trace.cl$options"
     [[ $as == check || $options == *FACET_TREE_NONE* ]] || echo "$target $as trace_refilled.cl$options"
   done
@@ -85,7 +85,7 @@ for ranking in "" " -DFACET_SORT_MATCH"; do
     done
   done
 done >> "$jobs"
-for kernel in look_back.cl levels.cl trace.cl render.cl render_samples.cl render_split.cl trace_refilled.cl \
+for kernel in look_back.cl levels.cl trace.cl render.cl render_samples.cl trace_refilled.cl \
     "trace.cl -DFACET_NO_INSTANCES" "trace_refilled.cl -DFACET_NO_INSTANCES"; do
   echo "nvptx64-nvidia-nvcl code $kernel -DFACET_PTX"
 done >> "$jobs"

@@ -18,10 +18,9 @@ namespace {
 
 tuning_workload of_rays() { return {}; }
 
-tuning_workload of_picture(bool has_followers) {
+tuning_workload of_picture() {
   tuning_workload w;
   w.is_picture = true;
-  w.has_followers = has_followers;
   return w;
 }
 
@@ -76,33 +75,22 @@ TEST_CASE("a choice is made on the workloads whose kernels it changes") {
   const auto matters = [](const char* name, const choices& c, const tuning_workload& w) {
     return tunable_of(name).matters(c, w);
   };
-  choices split = narrow(), split_packets = packets();
-  split.split_render = split_packets.split_render = true;
   CHECK(matters("layout", narrow(), of_rays()));
-  CHECK(matters("layout", packets(), of_picture(false)));
-
-  CHECK(!matters("split", narrow(), of_rays()));
-  CHECK(!matters("split", narrow(), of_picture(false)));
-  CHECK(matters("split", narrow(), of_picture(true)));
+  CHECK(matters("layout", packets(), of_picture()));
 
   CHECK(matters("packet_group", packets(), of_rays()));
-  CHECK(matters("packet_group", packets(), of_picture(true)));
-  CHECK(!matters("packet_group", split_packets, of_picture(true)));
+  CHECK(matters("packet_group", packets(), of_picture()));
   CHECK(!matters("packet_group", narrow(), of_rays()));
 
   CHECK(matters("group", narrow(), of_rays()));
   CHECK(!matters("group", packets(), of_rays()));
-  CHECK(!matters("group", narrow(), of_picture(true)));
-  CHECK(matters("group", split, of_picture(true)));
+  CHECK(!matters("group", narrow(), of_picture()));
 
-  CHECK(matters("render_group", narrow(), of_picture(true)));
-  CHECK(!matters("render_group", split, of_picture(true)));
-  CHECK(matters("render_group", split, of_picture(false)));
-  CHECK(!matters("render_group", packets(), of_picture(false)));
+  CHECK(matters("render_group", narrow(), of_picture()));
+  CHECK(!matters("render_group", packets(), of_picture()));
 
   CHECK(matters("registers", narrow(), of_rays()));
-  CHECK(matters("registers", narrow(), of_picture(true)));
-  CHECK(matters("registers", split, of_picture(true)));
+  CHECK(matters("registers", narrow(), of_picture()));
 
   CHECK(matters("leaves", narrow(), of_rays()));
   CHECK(!matters("leaves", packets(), of_rays()));

@@ -9,6 +9,7 @@
 
 #include "study/hit_errors.hpp"
 #include "tracer/device_helper.hpp"
+#include "tracer/features.hpp"
 
 using namespace facet;
 using study::tuning_scene;
@@ -46,15 +47,17 @@ TEST_CASE(
     "all kinds of rays take part, and pictures in which rays follow others and in which none") {
   std::set<std::string> kinds;
   std::set<bool> followers;
-  for (const tuning_scene& s : small_scenes())
+  for (const tuning_scene& s : small_scenes()) {
+    const tracer::features f = tracer::features::of(s.what);
     for (const tuning_workload& w : workloads_of(s)) {
       CAPTURE(w.name);
       CHECK(w.name.starts_with(s.what.name + ": "));
       kinds.insert(w.name.substr(w.name.find(": ") + 2));
       CHECK(w.rays.empty() == w.is_picture);
       CHECK(w.any == w.name.ends_with("shadow rays"));
-      if (w.is_picture) followers.insert(w.has_followers);
+      if (w.is_picture) followers.insert(f.reflection || f.transparency);
     }
+  }
   CHECK(kinds == std::set<std::string>{"eye rays", "shadow rays", "bounce rays", "picture"});
   CHECK(followers.size() == 2);
 }

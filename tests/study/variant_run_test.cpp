@@ -147,7 +147,6 @@ TEST_CASE("a variant that promises the strict one's bits and breaks it is told o
   listed_variant& other = list.emplace_back(list[0]);
   other.name = "other";
   other.options.packets = tracer::packet_kind::off;
-  other.options.split = tracer::split_kind::off;
   other.options.edits = {{"render.cl", "= sum / (float)(n * n);",
                           "= x == 5 && y == 3 ? sum * 0.5f : sum / (float)(n * n);"}};
   CHECK(measured(list).broken_promises() ==
@@ -159,7 +158,6 @@ TEST_CASE("what the device refuses says why; the others are measured") {
   list.insert(list.begin() + 1, list[0]);
   list[1].name = "broken";
   list[1].options.packets = tracer::packet_kind::off;
-  list[1].options.split = tracer::split_kind::off;
   list[1].options.edits = {{"render.cl", "const uint n = view->samples;", "this is no C"}};
   auto r = measured(list);
   CHECK(r.complete);

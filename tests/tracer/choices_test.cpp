@@ -61,7 +61,6 @@ std::vector<choices> all_kinds() {
   choices odd;
   odd.packet_group = 3, odd.group = 33;
   odd.render_group_width = 5, odd.render_group_height = 7;
-  odd.split_render = true;
   odd.leaf_sure = 3, odd.leaf_size = 13;
   ways(odd);
   return all;
@@ -79,7 +78,6 @@ TEST_CASE("hits and pictures have the same bits with any choices") {
     CAPTURE(c.wide_layout);
     CAPTURE(c.image_geometry);
     CAPTURE(c.packets);
-    CAPTURE(c.split_render);
     CAPTURE(c.group);
     device_scene on(test::queue(), s, with(c));
     CHECK(bits_of(on.trace(rays)) == hits);
@@ -100,7 +98,6 @@ TEST_CASE("they decide what was left open, and statistics say so") {
   CHECK(stats.layout == "narrow");
   CHECK(stats.geometry == "image");
   CHECK(stats.rays_a_work_item == 1);
-  CHECK(!stats.is_split);
   CHECK(stats.group_width == 2);
   CHECK(stats.group_height == 3);
   on.trace(test::random_rays(10, 1), false, 1, &stats);
@@ -113,7 +110,6 @@ TEST_CASE("what is asked for by name goes before them") {
   const scene s = test::every_feature();
   choices images;
   images.image_geometry = true;
-  images.split_render = true;
   options o = with(images);
   o.layout = tracer::layout_kind::wide;
   CHECK(device_scene(test::queue(), s, o).prepared().layout == "wide");
@@ -126,7 +122,6 @@ TEST_CASE("what is asked for by name goes before them") {
   tracer::statistics stats;
   device_scene(test::queue(), s, o).render(32, 16, 1, &stats);
   CHECK(stats.geometry == "buffer");
-  CHECK(!stats.is_split);
   CHECK(stats.group_width == 4);
   CHECK(stats.group_height == 2);
 
@@ -138,10 +133,6 @@ TEST_CASE("what is asked for by name goes before them") {
   o = with(packets);
   o.geometry = tracer::geometry_kind::image;
   CHECK(device_scene(test::queue(), s, o).prepared().layout == "narrow");
-  o = with(packets);
-  o.split = tracer::split_kind::on;
-  device_scene(test::queue(), s, o).render(32, 16, 1, &stats);
-  CHECK(stats.is_split);
 }
 
 TEST_CASE("the defaults of this kind of device can be had") {

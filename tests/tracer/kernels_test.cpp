@@ -35,7 +35,6 @@ TEST_CASE("the library holds every file of cl/, and a folder gives the same") {
   options o;
   o.kernel_folder = folder.string();
   o.packets = packet_kind::off;
-  o.split = split_kind::off;
   device_scene edited(test::queue(), test::one_mesh(generate("box", {})), o);
   CHECK(edited.render(4, 4, 1).rgba == std::vector<float>(64, 0.5f));
   std::filesystem::remove_all(folder);

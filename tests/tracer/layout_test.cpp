@@ -35,7 +35,6 @@ using namespace facet::tracer;
     FIELD(View, max_depth) FIELD(View, dy) FIELD(View, samples) FIELD(View, background) \
     FIELD(View, background_alpha) FIELD(View, ambient) FIELD(View, light_count) \
     FIELD(View, media) \
-  SIZE(RayNode) FIELD(RayNode, alpha) FIELD(RayNode, first) FIELD(RayNode, second) \
   SIZE(Faults) FIELD(Faults, crowded) \
   SIZE(SurfacePoint) FIELD(SurfacePoint, triangle) FIELD(SurfacePoint, delta) \
     FIELD(SurfacePoint, near_side) FIELD(SurfacePoint, children) FIELD(SurfacePoint, refracted_weight) \
@@ -63,7 +62,7 @@ TEST_CASE("the device lays out every shared structure as the host does") {
       "TriangleBlock x_TriangleBlock; FoldCost x_FoldCost; FoldPlan x_FoldPlan; TriangleInfo "
       "x_TriangleInfo; Instance x_Instance;\n"
       "Material x_Material; Light x_Light; View x_View; World x_World; Ray x_Ray; Hit "
-      "x_Hit; RayNode x_RayNode; Faults x_Faults; SurfacePoint x_SurfacePoint; Passage "
+      "x_Hit; Faults x_Faults; SurfacePoint x_SurfacePoint; Passage "
       "x_Passage;\n" EXPANDED(FIELDS(DEVICE_SIZE, DEVICE_FIELD)) "\n}\n";
   runtime::queue& q = test::queue();
   runtime::program program(q.get_context(), sources, "layout_test.cl", "");

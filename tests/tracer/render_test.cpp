@@ -33,7 +33,7 @@ bool same_bits(const picture& a, const picture& b) {
 TEST_CASE("trees, geometry, work-groups, tiles and feature sets all give the same picture") {
   const scene s = test::every_feature();
   const picture expected = render(s);
-  std::vector<options> ways(18);
+  std::vector<options> ways(15);
   ways[0].tree = tree_kind::none;
   ways[1].geometry = geometry_kind::image;
   ways[2].all_features = true;
@@ -47,9 +47,6 @@ TEST_CASE("trees, geometry, work-groups, tiles and feature sets all give the sam
   ways[12].layout = tracer::layout_kind::narrow;
   ways[13].layout = tracer::layout_kind::wide, ways[13].packets = tracer::packet_kind::off;
   ways[14].layout = tracer::layout_kind::wide, ways[14].packets = tracer::packet_kind::on;
-  ways[15].split = tracer::split_kind::on;
-  ways[16].split = tracer::split_kind::off;
-  ways[17] = ways[8], ways[17].split = tracer::split_kind::on;
   for (std::size_t k = 0; k < ways.size(); ++k) {
     CAPTURE(k);
     CHECK(same_bits(render(s, ways[k]), expected));
@@ -79,9 +76,7 @@ TEST_CASE("the work-group can change between pictures, and be the driver's: no b
 }
 
 TEST_CASE("the render kernel is described as compiled: text, options, and its largest group") {
-  options one_kernel;
-  one_kernel.split = tracer::split_kind::off;
-  device_scene on_device(test::queue(), test::every_feature(), one_kernel);
+  device_scene on_device(test::queue(), test::every_feature());
   const auto d = on_device.describe_render(9);
   CHECK(d.text.find("__kernel void render(") != std::string::npos);
   CHECK(d.text.find("#include \"") == std::string::npos);
@@ -91,34 +86,6 @@ TEST_CASE("the render kernel is described as compiled: text, options, and its la
   CHECK_THROWS_WITH_AS(on_device.render(8, 8, 1),
                        doctest::Contains(std::to_string(d.group_items).c_str()),
                        runtime::exception);
-}
-
-TEST_CASE(
-    "by several kernels: the same picture where rays have no room, in parts or by one kernel") {
-  scene s = test::every_feature();
-  s.samples = 2;
-  options one_kernel;
-  one_kernel.split = tracer::split_kind::off;
-  tracer::statistics expected_stats, stats;
-  const picture expected =
-      device_scene(test::queue(), s, one_kernel).render(90, 50, 12, &expected_stats);
-  options o;
-  o.split = tracer::split_kind::on;
-  device_scene usual(test::queue(), s, o);
-  CHECK(same_bits(usual.render(90, 50, 12, &stats), expected));
-  CHECK(stats.is_split);
-  CHECK(stats.parts_ms.count("shade_rays 0") == 1);
-  CHECK(usual.describe_render(12).text.find("__kernel void shade_rays(") != std::string::npos);
-  for (const std::uint64_t room : {1, 1000, 20000}) {
-    CAPTURE(room);
-    o.split_rays = room;
-    CHECK(same_bits(device_scene(test::queue(), s, o).render(90, 50, 12, &stats), expected));
-    CHECK(stats.crowded == expected_stats.crowded);
-    CHECK(stats.refused == expected_stats.refused);
-  }
-  // A tree that loses the second of two rays is not the same.
-  o.edits = {{"render_split.cl", "node.second = second;", ""}};
-  CHECK_FALSE(same_bits(device_scene(test::queue(), s, o).render(90, 50, 12), expected));
 }
 
 TEST_CASE(
@@ -134,14 +101,21 @@ TEST_CASE(
   for (const std::uint32_t samples : {3, 1}) {
     CAPTURE(samples);
     s.samples = samples;
-    const picture expected = render(s, together);
-    CHECK(same_bits(render(s, apart), expected));
-    CHECK(same_bits(render(s, in_tiles), expected));
+    tracer::statistics expected_stats, stats;
+    const picture expected =
+        device_scene(test::queue(), s, together).render(90, 50, 12, &expected_stats);
+    CHECK(same_bits(device_scene(test::queue(), s, apart).render(90, 50, 12, &stats), expected));
+    CHECK(stats.crowded == expected_stats.crowded);
+    CHECK(stats.refused == expected_stats.refused);
+    CHECK(same_bits(device_scene(test::queue(), s, in_tiles).render(90, 50, 12), expected));
     options wrong = apart;
     wrong.edits = {{"render_samples.cl", "all + own - before", "all"}};
-    CHECK_FALSE(same_bits(render(s, wrong), expected));
+    const auto is_right = [&] {
+      return same_bits(device_scene(test::queue(), s, wrong).render(90, 50, 12), expected);
+    };
+    CHECK_FALSE(is_right());
     wrong.edits = {{"render_samples.cl", "columns + n * x + i]", "columns + n * x]"}};
-    CHECK(same_bits(render(s, wrong), expected) == (samples == 1));
+    CHECK(is_right() == (samples == 1));
   }
 }
 
