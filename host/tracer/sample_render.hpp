@@ -25,6 +25,7 @@ class sample_renderer {
   std::uint64_t most_pixels() const { return most_pixels_; }
 
   kernel_description describe() const;
+  void add_programs(program_set& to) const { to.add(program_); }
 
   /// Milliseconds on the device.
   double render(const tile& t, runtime::buffer<View>& view, runtime::buffer<texel>& pixels);

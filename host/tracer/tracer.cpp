@@ -4,6 +4,7 @@
 
 #include "scene/media.hpp"
 #include "tracer/pack.hpp"
+#include "tracer/sample_render.hpp"
 #include "tracer/state.hpp"
 #include "tracer/wide_geometry.hpp"
 
@@ -244,6 +245,7 @@ void device_scene::state::describe(statistics& s) const {
   program_set programs = geometry.programs;
   for (const auto* p : {&trace_program, &refilled_program, &render_program})
     if (*p) programs.add(**p);
+  if (apart) apart->add_programs(programs);
   s.compile_ms = programs.build_ms();
   s.upload_ms = geometry.upload_ms;
   s.build_ms = geometry.build_ms;
