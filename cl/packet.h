@@ -110,15 +110,27 @@ static inline bool can_go_together(const PacketPart* part, float3 reach) {
                                 FACET_PACKET_WIDTH * larger(reach.x, larger(reach.y, reach.z));
 }
 
-// The rays in one space, the parts' o and d in it. False if they cannot be traced together there: one cannot
-// be used; the signs or main axes of their directions differ.
-static inline bool packet_in(const PacketPart* part, const Points* o, const Points* d, float3 reach,
+// Rays of a packet are told by a bit each.
+#define WHOLE_PACKET 0xffffffffu
+
+// Those whose main axis is the packet's, and by more than rounding.
+static inline uint rays_of_axis(const Rays* rays) {
+  uint which = 0u;
+  for (uint k = 0u; k < FACET_PARTS; ++k)
+    which |= lanes_of((fabs(rays[k].shear_x) < 1.0f) & (fabs(rays[k].shear_y) < 1.0f)) << FACET_LANES * k;
+  return which;
+}
+
+// Of the rays in one space, the parts' o and d in it, those that can be traced together there. None if one cannot be used,
+// or signs of their directions differ; those whose main axis is not that of one in the middle are left out.
+static inline uint packet_in(const PacketPart* part, const Points* o, const Points* d, float3 reach,
                              PacketSpace* space) {
-  const float3 centre = (float3)(o->x.s0, o->y.s0, o->z.s0), first = (float3)(d->x.s0, d->y.s0, d->z.s0);
+  const Points* mid = &d[FACET_PARTS / 2u];
+  const float3 centre = (float3)(o->x.s0, o->y.s0, o->z.s0), first = (float3)(mid->x.s4, mid->y.s4, mid->z.s4);
   const uint axis = main_axis(first);
   Real extent = in_all(0.0f), offsets = in_all(0.0f);
   for (uint k = 0u; k < FACET_PARTS; ++k) {
-    if (do_signs_differ(d[k], first)) return false;
+    if (do_signs_differ(d[k], first)) return 0u;
     Real e;
     Rays* r = &space->rays[k];
     rays_of(r, axis, o[k], d[k], reach, &e);
@@ -127,18 +139,29 @@ static inline bool packet_in(const PacketPart* part, const Points* o, const Poin
   }
   // A sum is NaN or infinite where a term is, and an offset where o, d or their product is, but for an infinite
   // d: its inverse is 0, which are_rays_usable finds.
-  if (!is_all(fabs(offsets) < INFINITY)) return false;
+  if (!is_all(fabs(offsets) < INFINITY)) return 0u;
   space->beam = beam_of(space->rays, part, centre, most_of(extent));
-  return are_rays_usable(&space->beam, axis, most_of(extent));
+  if (!are_rays_usable(&space->beam, axis, most_of(extent))) return 0u;
+  return is_main_axis(&space->beam, axis) ? WHOLE_PACKET : rays_of_axis(space->rays);
 }
 
-// In the world; false also where they had better not go together.
-APART bool packet_of(const PacketPart* part, float3 reach, PacketSpace* world) {
-  if (!can_go_together(part, reach)) return false;
+// Rays that look for nothing.
+static inline void leave_out(PacketPart* part, uint which) {
+  for (; which != 0u; which = without_first(which)) {
+    const uint i = first_lane(which);
+    ((float*)&part[i / FACET_LANES].t)[i % FACET_LANES] = -INFINITY;
+  }
+}
+
+// In the world; none also where they had better not go together. Those that are left out look for nothing from now on.
+APART uint packet_of(PacketPart* part, float3 reach, PacketSpace* world) {
+  if (!can_go_together(part, reach)) return 0u;
   Points o[FACET_PARTS], d[FACET_PARTS];
   for (uint k = 0u; k < FACET_PARTS; ++k) o[k] = part[k].o, d[k] = part[k].d;
   world->place = FACET_NONE;
-  return packet_in(part, o, d, reach, world);
+  const uint together = packet_in(part, o, d, reach, world);
+  if (together != WHOLE_PACKET) leave_out(part, ~together);
+  return together;
 }
 
 #ifndef FACET_NO_INSTANCES
@@ -167,7 +190,7 @@ static inline bool packet_in_instance(const Scene* s, uint place, const PacketPa
     d[k] = map_vectors(i->object_from_world, part[k].d);
   }
   inner->place = place;
-  return packet_in(part, o, d, vec_global(i->reach), inner);
+  return packet_in(part, o, d, vec_global(i->reach), inner) == WHOLE_PACKET;
 }
 
 #endif

@@ -1,5 +1,5 @@
-// Rays from a buffer, hits to a buffer: FACET_PACKET rays a work-item, together where they stay close
-// (search_packet.h), or else one after the other.
+// Rays from a buffer, hits to a buffer: FACET_PACKET rays a work-item, those together that stay close
+// (search_packet.h), the others one after the other.
 #include "search_packet.h"
 #include "trace.h"
 
@@ -48,9 +48,10 @@ static inline void write_part(const Scene* s, GEOMETRY positions, const PacketPa
 #endif
 }
 
-APART void trace_alone(const Scene* s, GEOMETRY positions, __global const Ray* rays, uint count, uint mode,
+APART void trace_alone(const Scene* s, GEOMETRY positions, __global const Ray* rays, uint which, uint mode,
                        __global Hit* hits, __global uint* hit_instances) {
-  for (uint i = 0u; i < count; ++i) {
+  for (; which != 0u; which = without_first(which)) {
+    const uint i = first_lane(which);
     const Query q = traced_query(s, positions, rays + i, mode);
     write_hit(hits, hit_instances, i, &q);
   }
@@ -68,16 +69,19 @@ static inline void trace_some(const Scene* s, GEOMETRY positions, __global const
                               uint mode, __global Hit* hits, __global uint* hit_instances) {
   PacketPart part[FACET_PARTS];
   PacketSpace world;
-  bool is_packet = s->triangle_count != 0u && count == FACET_PACKET;
-  if (is_packet) {
+  const uint all = count == FACET_PACKET ? WHOLE_PACKET : (1u << count) - 1u;
+  uint together = 0u;
+  if (s->triangle_count != 0u && all == WHOLE_PACKET) {
     for (uint k = 0u; k < FACET_PARTS; ++k) read_part(rays + FACET_LANES * k, &part[k]);
-    is_packet = packet_of(part, s->reach, &world);
+    together = packet_of(part, s->reach, &world);
   }
-  if (!is_packet) return trace_alone(s, positions, rays, count, mode, hits, hit_instances);
-  search_packet(s, positions, &world, mode, part);
-  for (uint k = 0u; k < FACET_PARTS; ++k)
-    write_part(s, positions, &part[k], &world.rays[k], mode, hits + FACET_LANES * k,
-               hit_instances + FACET_LANES * k);
+  if (together != 0u) {
+    search_packet(s, positions, &world, mode, part);
+    for (uint k = 0u; k < FACET_PARTS; ++k)
+      write_part(s, positions, &part[k], &world.rays[k], mode, hits + FACET_LANES * k,
+                 hit_instances + FACET_LANES * k);
+  }
+  if (together != all) trace_alone(s, positions, rays, all & ~together, mode, hits, hit_instances);
 }
 
 __kernel void trace_closest(__global const World* world, __global const SceneNode* nodes,

@@ -21,8 +21,10 @@ kernel_edits unchecked() {
       {"space.h", "largest >= 8.673617379884035e-19f &&", "true ||"},
       {"box.h", "is_known = fabs(c) < INFINITY;", "is_known = (int3)(-1);"},
       {"packet.h", "return is_all(has_way) && ", "return "},
-      {"packet.h", "if (!is_all(fabs(offsets) < INFINITY)) return false;", ""},
-      {"packet.h", "return are_rays_usable(&space->beam, axis, most_of(extent));", "return true;"}};
+      {"packet.h", "if (!is_all(fabs(offsets) < INFINITY)) return 0u;", ""},
+      {"packet.h", "if (!are_rays_usable(&space->beam, axis, most_of(extent))) return 0u;", ""},
+      {"packet.h", "is_main_axis(&space->beam, axis) ? WHOLE_PACKET : rays_of_axis(space->rays)",
+       "WHOLE_PACKET"}};
 }
 
 }  // namespace

@@ -133,7 +133,7 @@ TEST_CASE("packets: through instances, too, turned, stretched, mirrored, tiny an
   CHECK(differing_from_reference(s, rays, one_beam) > 0);
 }
 
-TEST_CASE("packets: one ray that does not go with the others sends all of them alone") {
+TEST_CASE("packets: rays among which one is odd give the reference's bits") {
   const mesh m = test::random_soup(200, 3);
   const scene s = test::one_mesh(m);
   std::vector<ray> rays = close_rays(m, 100, 9);
@@ -147,6 +147,34 @@ TEST_CASE("packets: one ray that does not go with the others sends all of them a
                      {{0, 0, 0}, 0, {1e18f, 1, 1}, INFINITY}};
   for (std::size_t g = 0; g < 100; ++g) rays[packet * g + g % packet] = odd[g % std::size(odd)];
   CHECK(differing_from_reference(s, rays, in_packets()) == 0);
+}
+
+TEST_CASE("packets: rays of another main axis than most are left out and go alone") {
+  const mesh m = test::random_soup(500, 4);
+  const scene s = test::one_mesh(m);
+  test::random r(6);
+  std::vector<ray> rays;
+  for (std::size_t g = 0; g < 200; ++g) {
+    const vec3f from = r.in_cube() * 2.0f;
+    vec3f towards{1, 1, 0.2f};
+    std::swap(towards.z, towards[int(g % 3)]);
+    for (int k = 0; k < 3; ++k) towards[k] = std::copysign(towards[k], -from[k]);
+    for (std::size_t k = 0; k < packet; ++k) {
+      const vec3f d = towards + r.in_cube() * 0.05f;
+      rays.push_back({{from.x, from.y, from.z}, 0, {d.x, d.y, d.z}, INFINITY});
+    }
+  }
+  CHECK(differing_from_reference(s, rays, in_packets()) == 0);
+  const std::size_t met = hits_of(s, rays, in_packets());
+  CHECK(met > rays.size() / 4);
+  // Rays go both ways: hits are lost without either.
+  options wrong = in_packets();
+  wrong.edits = {{"trace_packets.cl", "search_packet(s, positions, &world, mode, part);", ""}};
+  CHECK(hits_of(s, rays, wrong) < 3 * met / 4);
+  CHECK(hits_of(s, rays, wrong) > met / 10);
+  // With the packet's main axis in place of their own they do not get their own bits.
+  wrong.edits = {{"packet.h", "rays_of_axis(space->rays)", "WHOLE_PACKET"}};
+  CHECK(differing_from_reference(s, rays, wrong) > 0);
 }
 
 TEST_CASE("packets: a ray that cannot be used is counted, and meets nothing; the others hit") {
