@@ -74,12 +74,10 @@ __kernel void render_samples(__global const World* world, __global const SceneNo
                              __global const Material* materials, __global Faults* faults,
                              GEOMETRY positions, GEOMETRY normals, __global const Light* lights,
                              __global const View* view, __global float4* samples, __global const uint* groups,
-                             uint left, uint top, uint right, uint bottom) {
+                             uint is_listed, uint left, uint top, uint right, uint bottom) {
   const uint across = (uint)get_num_groups(0);
   uint group = (uint)get_group_id(1) * across + (uint)get_group_id(0);
-#ifndef FACET_NO_TRANSPARENCY
-  group = groups[group];
-#endif
+  if (is_listed != 0u) group = groups[group];
   const uint x = group % across * (uint)get_local_size(0) + (uint)get_local_id(0);
   const uint y = group / across * (uint)get_local_size(1) + (uint)get_local_id(1);
   const uint n = view->samples, columns = n * (right - left);

@@ -41,7 +41,9 @@ class sample_renderer {
   /// Which work-groups are likely to take long, and all with them first.
   void mark(const tile& t, runtime::buffer<View>& view);
   void list(const tile& t);
-  void trace(const tile& t, runtime::buffer<View>& view, runtime::buffer<texel>& to);
+  bool pays_to_list(const tile& t) const;
+  void trace(const tile& t, runtime::buffer<View>& view, runtime::buffer<texel>& to,
+             bool is_listed);
   void mean(const tile& t, runtime::buffer<View>& view, runtime::buffer<texel>& pixels);
 
   device_scene::state& state_;

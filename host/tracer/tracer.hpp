@@ -48,10 +48,10 @@ struct options {
   geometry_kind geometry = geometry_kind::automatic;
   layout_kind layout = layout_kind::automatic;
   packet_kind packets = packet_kind::automatic;
-  /// A work-item for each sample, those that are likely to take long first, where pixels have
-  /// several or rays part at glass and none go in packets; none: on GPUs. Not where a work-group is
-  /// asked for.
+  /// A work-item for each sample, where pixels have several or rays part at glass and none go in
+  /// packets; none: on GPUs. Not where a work-group is asked for.
   std::optional<bool> samples_apart;
+  std::optional<bool> glass_first;  ///< then, work-groups that come to glass; none: if it pays
   refill_kind refill = refill_kind::automatic;
   std::uint32_t group_width = 0, group_height = 0;  ///< work-group; 0: the device's default
   bool driver_group = false;                        ///< the driver chooses the work-group instead

@@ -76,7 +76,9 @@ TEST_CASE("the work-group can change between pictures, and be the driver's: no b
 }
 
 TEST_CASE("the render kernel is described as compiled: text, options, and its largest group") {
-  device_scene on_device(test::queue(), test::every_feature());
+  options together;
+  together.samples_apart = false;
+  device_scene on_device(test::queue(), test::every_feature(), together);
   const auto d = on_device.describe_render(9);
   CHECK(d.text.find("__kernel void render(") != std::string::npos);
   CHECK(d.text.find("#include \"") == std::string::npos);
@@ -95,8 +97,9 @@ TEST_CASE(
   together.packets = tracer::packet_kind::off;
   together.samples_apart = false;
   options apart = together;
-  apart.samples_apart = true;
-  options in_tiles = apart;
+  apart.samples_apart = apart.glass_first = true;
+  options in_tiles = apart, in_order = apart;
+  in_order.glass_first = false;
   in_tiles.tile_width = 17, in_tiles.tile_height = 13;
   for (const std::uint32_t samples : {3, 1}) {
     CAPTURE(samples);
@@ -108,6 +111,7 @@ TEST_CASE(
     CHECK(stats.crowded == expected_stats.crowded);
     CHECK(stats.refused == expected_stats.refused);
     CHECK(same_bits(device_scene(test::queue(), s, in_tiles).render(90, 50, 12), expected));
+    CHECK(same_bits(device_scene(test::queue(), s, in_order).render(90, 50, 12), expected));
     options wrong = apart;
     wrong.edits = {{"render_samples.cl", "all + own - before", "all"}};
     const auto is_right = [&] {
