@@ -1,5 +1,6 @@
 #include "tracer/look_back.hpp"
 
+#include <algorithm>
 #include <map>
 #include <mutex>
 
@@ -8,7 +9,12 @@
 namespace facet::tracer {
 namespace {
 
-constexpr std::uint32_t groups = 4096, columns = 64;
+constexpr std::uint32_t columns = 64;
+
+/// More than a device runs at once, by far.
+std::uint32_t groups_for(const runtime::device& d) {
+  return std::clamp(64 * std::uint32_t(d.max_compute_units()), 256u, 4096u);
+}
 
 std::uint32_t own_count(std::uint32_t group, std::uint32_t column) {
   return (group * 7 + column * 13) % 31;
@@ -35,6 +41,7 @@ bool prove_look_back(runtime::queue q, const runtime::source_tree& kernels, cons
   const runtime::program program =
       compiled(q, kernels, "look_back.cl", t.flags() + warp_options(t.sort) + more_options);
   const runtime::kernel prove = program.get_kernel("prove_look_back");
+  const std::uint32_t groups = groups_for(q.get_device());
   runtime::buffer<std::uint32_t> words(groups * columns), sums(groups * columns), counter(1),
       failed(1);
   fill(q, words, 0u);

@@ -9,8 +9,9 @@
 
 namespace facet::tracer {
 
-/// Lets some thousand groups look back, and holds their sums against the host's. A group gives up
-/// after `steps` steps, so that this ends on any device. more_options: for the compiler,
+/// Lets many more groups look back than run at once, and holds their sums against the host's. A
+/// group gives up after `steps` steps, so that this ends on any device. more_options: for the
+/// compiler,
 /// "-DFACET_LOOK_BACK_REVERSED" for ids in an order that cannot work.
 bool prove_look_back(runtime::queue q, const runtime::source_tree& kernels, const tuning& t,
                      std::uint32_t steps, const std::string& more_options = "");
