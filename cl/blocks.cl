@@ -30,24 +30,24 @@ __kernel void make_blocks(__global const uint* leaves, __global const uint* orde
   for (uint i = (uint)min(first, (ulong)count); i < end; ++i) {
     if (i + AHEAD < end) fetch_leaf(order, corners, materials, leaves[i + AHEAD]);
     const uint leaf = leaves[i], present = FACET_LEAF_COUNT(leaf);
-    const size_t a = 3u * (size_t)lane_triangle(order, leaf, 0u);
-    const float3 p0 = corners[a].xyz, p1 = corners[a + 1u].xyz;
-    size_t triangle[FACET_BLOCK];
-    for (uint lane = 0u; lane < FACET_BLOCK; ++lane) triangle[lane] = lane_triangle(order, leaf, lane);
+#define TRIANGLE(lane) lane_triangle(order, leaf, lane)
+    const size_t triangle[FACET_BLOCK] = {OF_LANES(TRIANGLE)};
+    const float3 p0 = corners[3u * triangle[0]].xyz, p1 = corners[3u * triangle[0] + 1u].xyz;
 
     const size_t block = (size_t)first_block + i;
     __global float8* to = (__global float8*)(blocks + 18u * block);
     for (uint k = 0u; k < 3u; ++k) {
-      float4 p[FACET_BLOCK];
-      for (uint lane = 0u; lane < FACET_BLOCK; ++lane)
-        p[lane] = corners[3u * triangle[lane] + (lane < present ? k : absent_corner(k, p0, p1))];
-      STORE_PAST_CACHES(LANES(p, x), &to[3u * k]);
-      STORE_PAST_CACHES(LANES(p, y), &to[3u * k + 1u]);
-      STORE_PAST_CACHES(LANES(p, z), &to[3u * k + 2u]);
+      const uint absent = absent_corner(k, p0, p1);
+#define CORNER(lane) corners[3u * triangle[lane] + ((lane) < present ? k : absent)]
+      const float4 p[FACET_BLOCK] = {OF_LANES(CORNER)};
+      float8 x, y, z;
+      lanes_from(p, &x, &y, &z);
+      STORE_PAST_CACHES(x, &to[3u * k]);
+      STORE_PAST_CACHES(y, &to[3u * k + 1u]);
+      STORE_PAST_CACHES(z, &to[3u * k + 2u]);
     }
-    __global uint2* info = (__global uint2*)(infos + FACET_BLOCK * block);
-    for (uint lane = 0u; lane < FACET_BLOCK; ++lane)
-      STORE_PAST_CACHES(((uint2)((uint)triangle[lane], materials[triangle[lane]])), &info[lane]);
+#define INFO(lane) (uint)triangle[lane], materials[triangle[lane]]
+    STORE_PAST_CACHES((uint16)(OF_LANES(INFO)), (__global uint16*)(infos + FACET_BLOCK * block));
   }
 }
 

@@ -16,8 +16,19 @@ static inline uint absent_corner(uint k, float3 p0, float3 p1) {
   return k < 2u ? 0u : is_point ? 2u : 1u;
 }
 
-// Lane's coordinate, of eight corners.
-#define LANES(p, axis) \
-  (float8)(p[0].axis, p[1].axis, p[2].axis, p[3].axis, p[4].axis, p[5].axis, p[6].axis, p[7].axis)
+// What a macro makes of each lane. Written out: a loop would go by memory.
+#define OF_LANES(of) of(0u), of(1u), of(2u), of(3u), of(4u), of(5u), of(6u), of(7u)
+
+// A coordinate a vector, of eight corners.
+static inline void lanes_from(const float4 p[FACET_BLOCK], float8* x, float8* y, float8* z) {
+  const float8 a = (float8)(p[0], p[4]), b = (float8)(p[1], p[5]), c = (float8)(p[2], p[6]), d = (float8)(p[3], p[7]);
+  const float8 ab_xy = (float8)(a.s0, b.s0, a.s1, b.s1, a.s4, b.s4, a.s5, b.s5);
+  const float8 cd_xy = (float8)(c.s0, d.s0, c.s1, d.s1, c.s4, d.s4, c.s5, d.s5);
+  const float8 ab_z = (float8)(a.s2, b.s2, a.s3, b.s3, a.s6, b.s6, a.s7, b.s7);
+  const float8 cd_z = (float8)(c.s2, d.s2, c.s3, d.s3, c.s6, d.s6, c.s7, d.s7);
+  *x = (float8)(ab_xy.s01, cd_xy.s01, ab_xy.s45, cd_xy.s45);
+  *y = (float8)(ab_xy.s23, cd_xy.s23, ab_xy.s67, cd_xy.s67);
+  *z = (float8)(ab_z.s01, cd_z.s01, ab_z.s45, cd_z.s45);
+}
 
 #endif

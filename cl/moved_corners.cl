@@ -4,6 +4,10 @@
 // find out, of those that are listed here because rounding leaves it open whether they have one.
 #include "blocks.h"
 
+// Lanes' coordinate, of eight corners.
+#define LANES(p, axis) \
+  (float8)(p[0].axis, p[1].axis, p[2].axis, p[3].axis, p[4].axis, p[5].axis, p[6].axis, p[7].axis)
+
 typedef struct {
   float3 p[3];
 } Corners;

@@ -36,12 +36,11 @@ bottoms<Primitive>::bottoms(const runtime::queue& q, const runtime::source_tree&
       build_(program_.get_kernel("build_bottoms")) {}
 
 template <class Primitive>
-std::uint32_t bottoms<Primitive>::build(runtime::buffer<Primitive>& primitives,
-                                        runtime::buffer<std::uint32_t>& starts,
-                                        std::uint32_t subtrees,
-                                        runtime::buffer<std::uint32_t>& order, tree_parts& parts,
-                                        std::uint32_t first_node, const leaf_triangles* sorted,
-                                        std::vector<step>& steps) {
+void bottoms<Primitive>::build(runtime::buffer<Primitive>& primitives,
+                               runtime::buffer<std::uint32_t>& starts, std::uint32_t subtrees,
+                               runtime::buffer<std::uint32_t>& order, tree_parts& parts,
+                               std::uint32_t first_node, const leaf_triangles* sorted,
+                               std::vector<step>& steps) {
   queue_.submit([&](runtime::handler& h) {
     h.fill(runtime::accessor{counter_, h, runtime::write_only}, first_node);
   });
@@ -69,6 +68,10 @@ std::uint32_t bottoms<Primitive>::build(runtime::buffer<Primitive>& primitives,
                        h.parallel_for(in_groups(subtrees, FACET_SWEEP_MOST), build_);
                      }
                    })});
+}
+
+template <class Primitive>
+std::uint32_t bottoms<Primitive>::nodes() {
   const runtime::host_accessor made{counter_, runtime::read_only};
   return made[0];
 }

@@ -37,14 +37,14 @@ class bottoms {
           leaf_rule leaves, bool in_order);
 
   /// order: sorted place -> primitive; becomes leaf place -> primitive. Nodes are appended from
-  /// first_node on. Returns the nodes that there are then; where they are more than
-  /// parts.nodes.size() they are not all written. sorted: null unless in_order. Waits for the
-  /// device.
-  std::uint32_t build(runtime::buffer<Primitive>& primitives,
-                      runtime::buffer<std::uint32_t>& starts, std::uint32_t subtrees,
-                      runtime::buffer<std::uint32_t>& order, tree_parts& parts,
-                      std::uint32_t first_node, const leaf_triangles* sorted,
-                      std::vector<step>& steps);
+  /// first_node on, as far as parts.nodes has room; items and refs are all there anyway. sorted:
+  /// null unless in_order.
+  void build(runtime::buffer<Primitive>& primitives, runtime::buffer<std::uint32_t>& starts,
+             std::uint32_t subtrees, runtime::buffer<std::uint32_t>& order, tree_parts& parts,
+             std::uint32_t first_node, const leaf_triangles* sorted, std::vector<step>& steps);
+
+  /// How many nodes there are then, or would be with more room. Waits for the device.
+  std::uint32_t nodes();
 
   void add_programs(program_set& to) const { to.add(program_); }
 

@@ -28,18 +28,18 @@ struct binned {
                    const sorted_places& places, tree_parts& to, const leaf_triangles* sorted,
                    std::vector<step>& steps) {
     const std::uint32_t subtrees = places.subtrees;
-    built_root r{bottom.build(primitives, places.starts, subtrees, places.order, to, subtrees - 1,
-                              sorted, steps),
-                 0, 0};
-    if (r.nodes > to.nodes.size()) return r;
-    if (subtrees > 1) {
-      r.depth = top.build(curve, to, subtrees, steps);
-    } else {
-      const runtime::host_accessor refs{to.refs, runtime::read_only};
-      const runtime::host_accessor items{to.items, runtime::read_only};
-      r.root = refs[0];
-      r.depth = items[0].size >> FACET_HEIGHT_BIT;
-    }
+    bottom.build(primitives, places.starts, subtrees, places.order, to, subtrees - 1, sorted,
+                 steps);
+    built_root r{0, 0, 0};
+    // Two subtrees side by side have more than FACET_SWEEP_MOST primitives: the top's nodes have
+    // room however many there are below.
+    if (subtrees > 1) r.depth = top.build(curve, to, subtrees, steps);
+    r.nodes = bottom.nodes();
+    if (subtrees > 1) return r;
+    const runtime::host_accessor refs{to.refs, runtime::read_only};
+    const runtime::host_accessor items{to.items, runtime::read_only};
+    r.root = refs[0];
+    r.depth = items[0].size >> FACET_HEIGHT_BIT;
     return r;
   }
 
