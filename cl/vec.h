@@ -11,7 +11,6 @@
 #define FACET_ULP 5.9604644775390625e-8f  // 2^-24: the unit roundoff of float
 
 static inline float3 vec_global(__global const float* a) { return (float3)(a[0], a[1], a[2]); }
-static inline float3 vec_constant(__constant const float* a) { return (float3)(a[0], a[1], a[2]); }
 
 static inline float dot3(float3 a, float3 b) { return (a.x * b.x + a.y * b.y) + a.z * b.z; }
 
@@ -23,8 +22,6 @@ static inline float length3(float3 a) { return sqrt(dot3(a, a)); }
 
 // A division by the length, not a product with its reciprocal: each component is rounded once.
 static inline float3 normalize3(float3 a) { return a / length3(a); }
-
-static inline float3 abs3(float3 a) { return fabs(a); }
 
 // The larger and the smaller, where a NaN in `a` counts as no bound at all.
 static inline float larger(float a, float bound) { return a > bound ? a : bound; }

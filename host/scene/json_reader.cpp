@@ -227,8 +227,9 @@ float json_node::narrowed(double v) const {
 float json_node::single() const { return narrowed(number()); }
 
 std::uint32_t json_node::whole(std::uint32_t least, std::uint32_t most) const {
+  const std::string first = std::to_string(least);
   const std::string allowed =
-      "a whole number from " + std::to_string(least) + " to " + std::to_string(most);
+      least == most ? first : "a whole number from " + first + " to " + std::to_string(most);
   if (!value_->is_number()) expected(allowed);
   const double v = value_->get<double>();
   if (!(v >= least && v <= most) || v != std::floor(v)) expected(allowed);

@@ -101,6 +101,8 @@ TEST_CASE("whole numbers are whole and within their range, ends included") {
   CHECK(whole(6) == 7);
   for (std::size_t i : {0, 1, 4, 5, 7})
     CHECK(contains(error_of([&] { whole(i); }).what(), "a whole number from 0 to 9"));
+  CHECK(root.element(3).whole(9, 9) == 9);
+  CHECK(contains(error_of([&] { root.element(2).whole(9, 9); }).what(), "expected 9, found 0"));
 }
 
 TEST_CASE("a number that is finite as double and not as float is refused") {
