@@ -3,8 +3,8 @@
 # SPIR, NVPTX and AMDGCN: devices that the test machine may not have; the wide layout, which is for CPUs,
 # for SPIR and for x86-64 with AVX-512. The flags are read from
 # cl/features.h, so that a new feature is covered when it is named there.
-# Flags decide what is compiled, targets how: sets with no flag, one, all, or all but one become code for each
-# target, and the others are checked for SPIR without generating code.
+# Flags decide what is compiled, targets how: sets with no flag, one, or all become code for each target, and the
+# others are checked for SPIR without generating code.
 # Usage: targets.sh CL_FOLDER [CLANG]
 set -euo pipefail
 cl=$1
@@ -19,8 +19,8 @@ done
 flags=("${derived[@]}" "${chosen[@]}")
 (( ${#derived[@]} >= 5 )) || { echo "cl/features.h names only ${#derived[@]} FACET_NO_ flags"; exit 1; }
 
-# Whether of N flags a set (bits of a number) has none, one, all, or all but one.
-is_outer() { local count; count=$(bits "$1"); (( count <= 1 || count >= $2 - 1 )); }
+# Whether of N flags a set (bits of a number) has none, one, or all.
+is_outer() { local count; count=$(bits "$1"); (( count <= 1 || count == $2 )); }
 bits() { local n=$1 b=0; while (( n )); do (( b += n & 1, n >>= 1 )) || true; done; echo "$b"; }
 
 # Every subset of the flags, for the kernels that traverse; the builders' kernels have none.

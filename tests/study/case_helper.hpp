@@ -21,6 +21,7 @@ inline void check_case(int number) {
     const study::case_report right = study::run_case(c, l, false);
     INFO(study::table_row(right, nullptr, false));
     CHECK(right.is_met());
+    if (is_sanitized) return;  // what else there is to find is in the kernels
     const study::case_report wrong = study::run_case(c, l, true);
     CAPTURE(wrong.mistake);
     CHECK(wrong.failures() > 0);

@@ -118,8 +118,9 @@ TEST_CASE(
       return same_bits(device_scene(test::queue(), s, wrong).render(90, 50, 12), expected);
     };
     CHECK_FALSE(is_right());
+    if (samples == 1) continue;
     wrong.edits = {{"render_samples.cl", "columns + n * x + i]", "columns + n * x]"}};
-    CHECK(is_right() == (samples == 1));
+    CHECK_FALSE(is_right());
   }
 }
 
