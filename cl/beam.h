@@ -43,20 +43,22 @@ static inline float steepest(const BeamAxis* a) {
   return cull_max1(fabs(a->least_inverse), fabs(a->most_inverse));
 }
 
-// Whether space_of takes all rays, and knows their offsets; no where it only just would. The inverse directions are asked,
-// whose bounds are known; none of them is NaN.
+static inline const BeamAxis* axis_of(const Beam* b, uint axis) {
+  return axis == 0u ? &b->x : axis == 1u ? &b->y : &b->z;
+}
+
+// Whether space_of takes all rays, and knows their offsets; no where it only just would. The inverse directions are
+// asked, whose bounds are known; none of them is NaN.
 static inline bool are_rays_usable(const Beam* b, uint axis, float extent) {
-  const BeamAxis* main = axis == 0u ? &b->x : axis == 1u ? &b->y : &b->z;
-  const BeamAxis *first = axis == 0u ? &b->z : &b->x, *second = axis == 1u ? &b->z : &b->y;
-  const float most = cull_max1(steepest(first), steepest(second));
+  const BeamAxis* main = axis_of(b, axis);
+  const float most = cull_max1(steepest(&b->x), cull_max1(steepest(&b->y), steepest(&b->z)));
   return flattest(main) >= 0x1p-50f && steepest(main) <= 0x1p50f && extent <= 0x1p50f && extent * most <= 0x1p100f;
 }
 
 // Whether all rays have that main axis.
 static inline bool is_main_axis(const Beam* b, uint axis) {
-  const BeamAxis* main = axis == 0u ? &b->x : axis == 1u ? &b->y : &b->z;
-  const BeamAxis *first = axis == 0u ? &b->z : &b->x, *second = axis == 1u ? &b->z : &b->y;
-  return steepest(main) < cull_min1(flattest(first), flattest(second));
+  const BeamAxis *first = axis_of(b, axis == 0u ? 2u : 0u), *second = axis_of(b, axis == 1u ? 2u : 1u);
+  return steepest(axis_of(b, axis)) < cull_min1(flattest(first), flattest(second));
 }
 
 static inline Each first_crossing(const BeamAxis* a, Each face) {

@@ -121,8 +121,8 @@ static inline uint rays_of_axis(const Rays* rays) {
   return which;
 }
 
-// Of the rays in one space, the parts' o and d in it, those that can be traced together there. None if one cannot be used,
-// or signs of their directions differ; those whose main axis is not that of one in the middle are left out.
+// Of the rays in one space, the parts' o and d in it, those that can be traced together there. None if one cannot be
+// used, or signs of their directions differ; those whose main axis is not that of one in the middle are left out.
 static inline uint packet_in(const PacketPart* part, const Points* o, const Points* d, float3 reach,
                              PacketSpace* space) {
   const Points* mid = &d[FACET_PARTS / 2u];

@@ -46,10 +46,7 @@ static inline bool packet_of_bundle(Bundle* b, uint some, float3 reach, PacketPa
   for (uint k = 0u; k < FACET_PARTS; ++k)
     begin_part(&part[k], rows_from(b->o, k), rows_from(b->d, k), in_all(0.0f), vload8(k, b->tmax));
   if (packet_of(part, reach, world) != WHOLE_PACKET) return false;
-  for (uint none = ~some; none != 0u; none = without_first(none)) {
-    const uint i = first_lane(none);
-    ((float*)&part[i / FACET_LANES].t)[i % FACET_LANES] = -INFINITY;
-  }
+  leave_out(part, ~some);
   return true;
 }
 

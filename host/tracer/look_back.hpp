@@ -11,8 +11,7 @@ namespace facet::tracer {
 
 /// Lets many more groups look back than run at once, and holds their sums against the host's. A
 /// group gives up after `steps` steps, so that this ends on any device. more_options: for the
-/// compiler,
-/// "-DFACET_LOOK_BACK_REVERSED" for ids in an order that cannot work.
+/// compiler, "-DFACET_LOOK_BACK_REVERSED" for ids in an order that cannot work.
 bool prove_look_back(runtime::queue q, const runtime::source_tree& kernels, const tuning& t,
                      std::uint32_t steps, const std::string& more_options = "");
 

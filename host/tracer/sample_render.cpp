@@ -11,6 +11,10 @@ constexpr const char* main_file = "render_samples.cl";
 
 constexpr std::uint32_t list_group = 256;  ///< a power of 2
 
+std::uint64_t samples_of(const device_scene::state& s) {
+  return std::uint64_t(s.model.samples) * s.model.samples;
+}
+
 }  // namespace
 
 sample_renderer::sample_renderer(device_scene::state& s, std::uint32_t max_depth,
@@ -23,7 +27,7 @@ sample_renderer::sample_renderer(device_scene::state& s, std::uint32_t max_depth
       list_(program_.get_kernel("list_groups")),
       trace_(program_.get_kernel("render_samples")),
       mean_(program_.get_kernel("mean_samples")),
-      samples_(has_means() ? most_pixels_ * s.model.samples * s.model.samples : 1),
+      samples_(has_means() ? most_pixels_ * samples_of(s) : 1),
       marks_(1),
       groups_(1),
       untold_(1) {}
@@ -40,8 +44,7 @@ std::uint64_t sample_renderer::pixels_for(std::uint64_t pixels) const {
   const runtime::device d = state_.queue.get_device();
   const std::uint64_t bytes =
       std::min(d.global_mem_size() / 8, std::uint64_t(d.max_mem_alloc_size()));
-  const std::uint64_t samples = std::uint64_t(state_.model.samples) * state_.model.samples;
-  return std::clamp<std::uint64_t>(bytes / sizeof(texel) / samples, 1, pixels);
+  return std::clamp<std::uint64_t>(bytes / sizeof(texel) / samples_of(state_), 1, pixels);
 }
 
 runtime::range<2> sample_renderer::group() const {
@@ -61,9 +64,9 @@ runtime::nd_range<2> sample_renderer::all_samples(const tile& t) const {
 /// traced, or where two rays at most follow an eye ray, that is not gained.
 bool sample_renderer::pays_to_list(const tile& t) const {
   constexpr std::uint64_t at_once = 1024;  // work-items of a compute unit, by their registers
-  const std::uint64_t samples = t.pixels() * state_.model.samples * state_.model.samples;
   return state_.used.transparency && max_depth_ > 2 &&
-         samples > 4 * at_once * state_.queue.get_device().max_compute_units();
+         t.pixels() * samples_of(state_) >
+             4 * at_once * state_.queue.get_device().max_compute_units();
 }
 
 void sample_renderer::mark(const tile& t, runtime::buffer<View>& view) {

@@ -103,6 +103,7 @@ TEST_CASE("an nd_range is cut into groups of its local size") {
     h.parallel_for(nd_range<1>({6}, {3}), kernels().get_kernel("groups"));
   });
   CHECK(test::contents(b) == ints{0, 1, 2, 1000, 1001, 1002});
+  CHECK(nd_range<2>({12, 6}, {4, 6}).get_group_range() == range<2>(3, 1));
 }
 
 TEST_CASE("a range with a 0 launches nothing, and its event completes") {
