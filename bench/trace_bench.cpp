@@ -23,7 +23,7 @@ using json = nlohmann::ordered_json;
 struct settings {
   std::vector<std::string> meshes{"terrain:1000", "soup:1000000"}, peers{"single", "packets"};
   std::string device = "0", geometry = "auto", tree = "binned", layout = "auto", packets = "auto",
-              refill = "auto", kernels, tuning, json;
+              refill = "auto", streams = "auto", kernels, tuning, json;
   int repeat = 5;
   unsigned threads = std::thread::hardware_concurrency();
 };
@@ -76,14 +76,14 @@ json measure(const std::string& name, const char* kind, const std::vector<ray>& 
              std::vector<tracer::hit>& hits) {
   const std::vector<tracer::ray> input = packed(rays);
   std::vector<double> times;
-  bool is_refilled = false;
+  bool is_refilled = false, is_streamed = false;
   for (peer& p : peers) p.times.clear(), p.ratios.clear(), p.hits.resize(rays.size());
   // Without peers all repeats are one call. With some they take turns, and each one's first pass
   // only brings back into the caches what the one before has driven out.
   for (int i = 0; i < (peers.empty() ? 1 : o.repeat); ++i) {
     tracer::statistics s;
     hits = ours.trace(input, any, 1 + (peers.empty() ? unsigned(o.repeat) : 1), &s);
-    is_refilled = s.is_refilled;
+    is_refilled = s.is_refilled, is_streamed = s.is_streamed;
     for (std::size_t k = 1; k < s.kernel_ms.size(); ++k) times.push_back(s.kernel_ms[k] * 1e-3);
     for (peer& p : peers) {
       const auto pass = [&] { p.on->trace(rays, any, o.threads, p.hits, p.calls); };
@@ -92,7 +92,11 @@ json measure(const std::string& name, const char* kind, const std::vector<ray>& 
       p.ratios.push_back(p.times.back() / times.back());
     }
   }
-  json row{{"mesh", name}, {"rays", kind}, {"count", rays.size()}, {"refilled", is_refilled}};
+  json row{{"mesh", name},
+           {"rays", kind},
+           {"count", rays.size()},
+           {"refilled", is_refilled},
+           {"streamed", is_streamed}};
   row["facet"] = rates(times, rays.size());
   std::printf("%-22s %-8s%s %8zu  %9.2f (%.2f-%.2f)", name.c_str(), kind,
               is_refilled ? ", refilled" : "", rays.size(), double(row["facet"]["mrays_per_s"]),
@@ -122,6 +126,9 @@ void run(const settings& o) {
   options.refill = o.refill == "on"    ? tracer::refill_kind::on
                    : o.refill == "off" ? tracer::refill_kind::off
                                        : tracer::refill_kind::automatic;
+  options.streams = o.streams == "on"    ? tracer::stream_kind::on
+                    : o.streams == "off" ? tracer::stream_kind::off
+                                         : tracer::stream_kind::automatic;
   options.kernel_folder = o.kernels;
   if (!o.tuning.empty()) options.defaults = study::tuned_values(o.tuning, device);
   const std::string peer_name = embree_version();
@@ -198,6 +205,10 @@ void add_trace_row(CLI::App& app) {
       ->check(CLI::IsMember({"auto", "on", "off"}))
       ->capture_default_str();
   row->add_option("--refill", o->refill, "warps take new rays while others are on their way")
+      ->check(CLI::IsMember({"auto", "on", "off"}))
+      ->capture_default_str();
+  row->add_option("--streams", o->streams,
+                  "rays that do not stay close go through the tree in lists")
       ->check(CLI::IsMember({"auto", "on", "off"}))
       ->capture_default_str();
   row->add_option("--kernels", o->kernels, "read cl/ from this folder");

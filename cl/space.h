@@ -99,23 +99,33 @@ static inline void slab_of(Real o, Real d, Real pad, Real least, Real* inverse, 
   *far_offset = c + p;
 }
 
+// The same on all axes, for directions whose largest components are `largest`; `extent` is E of each (box.h).
+static inline void slabs_in_lanes(Points o, Points d, float3 reach, Real largest, Points* inverse, Points* near_offset,
+                                  Points* far_offset, Real* extent) {
+  *extent = larger_each(fabs(o.x) + reach.x, larger_each(fabs(o.y) + reach.y, fabs(o.z) + reach.z));
+  const Real pad = (24.0f * FACET_ULP) * *extent, least = largest * 8.673617379884035e-19f;
+  slab_of(o.x, d.x, pad, least, &inverse->x, &near_offset->x, &far_offset->x);
+  slab_of(o.y, d.y, pad, least, &inverse->y, &near_offset->y, &far_offset->y);
+  slab_of(o.z, d.z, pad, least, &inverse->z, &near_offset->z, &far_offset->z);
+}
+
+// The bits of E's exponent, as space_of has them.
+static inline uint8 exponent_of(Real extent) {
+  return as_uint8(larger_each(extent, in_all(0x1p-60f))) & 0x7f800000u;
+}
+
 // As space_of, a ray in each lane, as if it took them all and knew their offsets, which is for the caller to find
 // out. They have that main axis, and on each axis their directions have one sign. `extent` is E of each.
 static inline void rays_of(Rays* r, uint axis, Points o, Points d, float3 reach, Real* extent) {
   const Points main = swapped_points(axis, d);
-  const Real largest = fabs(main.z);
   r->axis = axis;
   r->o = swapped_points(axis, o);
   r->is_turned = (main.z.s0 < 0.0f) != (axis != 2u);
   r->shear_x = main.x / main.z;
   r->shear_y = main.y / main.z;
-  *extent = larger_each(fabs(o.x) + reach.x, larger_each(fabs(o.y) + reach.y, fabs(o.z) + reach.z));
-  const uint8 exponent = as_uint8(larger_each(*extent, in_all(0x1p-60f))) & 0x7f800000u;
+  slabs_in_lanes(o, d, reach, fabs(main.z), &r->inverse, &r->near_offset, &r->far_offset, extent);
+  const uint8 exponent = exponent_of(*extent);
   r->unit = as_float8(0x7f000000u - exponent);
-  const Real pad = (24.0f * FACET_ULP) * *extent, least = largest * 8.673617379884035e-19f;
-  slab_of(o.x, d.x, pad, least, &r->inverse.x, &r->near_offset.x, &r->far_offset.x);
-  slab_of(o.y, d.y, pad, least, &r->inverse.y, &r->near_offset.y, &r->far_offset.y);
-  slab_of(o.z, d.z, pad, least, &r->inverse.z, &r->near_offset.z, &r->far_offset.z);
   r->t_of_unit = swapped_points(axis, r->inverse).z * as_float8(exponent);
 }
 

@@ -2,3 +2,4 @@
 #pragma once
 
 #include "cl/layout.h"
+#include "cl/stream_layout.h"

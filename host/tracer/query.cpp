@@ -14,7 +14,8 @@ std::vector<hit> device_scene::trace(std::span<const ray> rays, bool any, unsign
     throw runtime::exception(runtime::errc::invalid, std::to_string(rays.size()) +
                                                          " rays in one call; at most 2^32 - 2 are "
                                                          "allowed: trace them in parts");
-  s.trace_kernel(any);
+  const bool streamed = chooses_streams(s, rays.size());
+  streamed ? s.streamed_kernel(any) : s.trace_kernel(any);  // compiled before anything is timed
   if (stats) {
     *stats = {};
     stats->rays = rays.size();
@@ -28,11 +29,11 @@ std::vector<hit> device_scene::trace(std::span<const ray> rays, bool any, unsign
 
   const auto start = clock::now();
   ray_batch batch(s, rays, any);
-  batch.warm_up();
-  const bool refilled = batch.chooses_refill();
+  batch.warm_up(streamed);
+  const bool refilled = !streamed && batch.chooses_refill();
   for (unsigned k = 0; k < std::max(1u, repeat); ++k) {
     s.clear_faults();
-    const runtime::event done = batch.trace(refilled);
+    const runtime::event done = batch.trace(streamed, refilled);
     done.wait_and_throw();
     if (stats) stats->kernel_ms.push_back(done.milliseconds());
   }
@@ -40,6 +41,8 @@ std::vector<hit> device_scene::trace(std::span<const ray> rays, bool any, unsign
   if (stats) {
     s.describe(*stats);
     stats->is_refilled = refilled;
+    stats->is_streamed = streamed;
+    if (streamed) stats->group_width = 1;
     stats->refused = s.read_faults().refused;
     stats->wall_ms = milliseconds_since(start);
   }

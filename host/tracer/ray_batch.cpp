@@ -21,7 +21,17 @@ constexpr std::uint32_t warps_sampled = 256, warp = 32;
 // are. Any hits are as fast or up to 14% faster.
 constexpr double lanes_enough = 0.55;
 
+// A stream of few rays is soon as slow as the rays by themselves, and a compute unit's last one
+// leaves the others without work.
+constexpr std::uint32_t least_stream = 512, streams_of_unit = 8;
+
 }  // namespace
+
+bool chooses_streams(const device_scene::state& s, std::size_t count) {
+  const std::size_t many =
+      std::size_t(least_stream) * streams_of_unit * s.queue.get_device().max_compute_units();
+  return s.streams && (s.chosen.streams == stream_kind::on || count >= many);
+}
 
 ray_batch::ray_batch(device_scene::state& s, std::span<const ray> rays, bool any)
     : state_(s),
@@ -56,11 +66,33 @@ void ray_batch::clear_counts() {
   });
 }
 
-void ray_batch::warm_up() {
+std::uint32_t ray_batch::rays_of_stream() const {
+  const std::uint32_t units = state_.queue.get_device().max_compute_units();
+  const std::uint32_t even = count_ / (streams_of_unit * units) / FACET_PACKET * FACET_PACKET;
+  return std::clamp(even, least_stream, FACET_STREAM);
+}
+
+runtime::event ray_batch::launch_streams(std::uint32_t count) {
+  const std::uint32_t units = state_.queue.get_device().max_compute_units();
+  if (!streams_) streams_.emplace(units);
+  clear_counts();
+  return state_.queue.submit([&](runtime::handler& h) {
+    std::uint32_t k = set_rays(h, state_.set_geometry(h));
+    h.set_arg(k++, count);
+    h.set_arg(k++, runtime::accessor{*streams_, h, runtime::read_write});
+    h.set_arg(k++, runtime::accessor{counts_, h, runtime::read_write});
+    h.set_arg(k++, rays_of_stream());
+    h.parallel_for(padded(units, 1), state_.streamed_kernel(any_));
+  });
+}
+
+void ray_batch::warm_up(bool streamed) {
   state_.queue.submit([&](runtime::handler& h) {
     h.fill(runtime::accessor{out_, h, runtime::write_only}, Hit{});
   });
-  launch(std::min(count_, each_ * group_)).wait_and_throw();
+  (streamed ? launch_streams(std::min(count_, least_stream))
+            : launch(std::min(count_, each_ * group_)))
+      .wait_and_throw();
 }
 
 bool ray_batch::chooses_refill() {
@@ -88,7 +120,8 @@ std::size_t ray_batch::resident_items() const {
   return resident_of_unit * state_.queue.get_device().max_compute_units();
 }
 
-runtime::event ray_batch::trace(bool refilled) {
+runtime::event ray_batch::trace(bool streamed, bool refilled) {
+  if (streamed) return launch_streams(count_);
   if (!refilled) return launch(count_);
   clear_counts();
   return state_.queue.submit([&](runtime::handler& h) {

@@ -22,6 +22,7 @@ struct device_scene::state {
   bool in_images = false;
   bool in_packets = false;  ///< a work-item takes FACET_PACKET rays or pixels
   bool refills = false;     ///< refill_kind::automatic may choose to
+  bool streams = false;     ///< stream_kind::automatic may choose to
   runtime::source_tree kernels;
   scene model;  ///< camera, lights and limits of later pictures; with its meshes if they may move
   std::optional<std::vector<std::uint32_t>> camera_media;  ///< innermost first; none: not yet known
@@ -29,7 +30,8 @@ struct device_scene::state {
   std::uint64_t peak_bytes = 0;  ///< of device memory while the geometry was made
   runtime::buffer<Light> lights;
   runtime::buffer<Faults> faults;
-  std::optional<runtime::program> trace_program, refilled_program, render_program, probe_program;
+  std::optional<runtime::program> trace_program, refilled_program, streamed_program, render_program,
+      probe_program;
   std::uint32_t render_stack = 0;  ///< entries of pending rays that render_program was built for
   std::shared_ptr<sample_renderer> apart = nullptr;  ///< of the last picture by samples apart
   std::shared_ptr<scene_mover> mover = nullptr;      ///< from the first move on
@@ -38,6 +40,7 @@ struct device_scene::state {
   runtime::program compiled_to_trace(const char* file);
   runtime::kernel trace_kernel(bool any);
   runtime::kernel refilled_kernel(const char* name);
+  runtime::kernel streamed_kernel(bool any);
   runtime::program compiled_to_render(const char* file, std::uint32_t max_depth) const;
   runtime::kernel render_kernel(std::uint32_t max_depth);
   const char* render_file() const;

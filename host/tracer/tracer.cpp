@@ -93,6 +93,18 @@ bool may_refill(const options& o, bool is_wide, const tuning& t) {
   return can && in_warps && t.warps;
 }
 
+/// Whether stream_kind::automatic may mean on.
+bool may_stream(const options& o, bool in_packets, const features& used) {
+  const bool can = in_packets && !used.instances;
+  if (o.streams == stream_kind::on && !can)
+    throw runtime::exception(
+        runtime::errc::invalid,
+        "streams of rays were asked for, which take packets and a scene of one "
+        "mesh that is placed by the identity; found " +
+            std::string(in_packets ? "instances" : "no packets"));
+  return can && o.streams != stream_kind::off;
+}
+
 runtime::buffer<Light> light_buffer(const std::vector<Light>& lights) {
   return lights.empty() ? runtime::buffer<Light>(1)
                         : runtime::buffer<Light>(lights.data(), lights.size());
@@ -118,7 +130,8 @@ device_scene::device_scene(runtime::queue queue, const scene& s, options o,
   const features used = o.all_features ? features::all() : features::of(s);
   const bool in_images = is_in_images(o, tuned);
   const bool wide = is_wide(o, in_images, tuned);
-  const bool in_packets = is_in_packets(o, wide, tuned), refills = may_refill(o, wide, tuned);
+  const bool in_packets = is_in_packets(o, wide, tuned), refills = may_refill(o, wide, tuned),
+             streams = may_stream(o, in_packets, used);
   runtime::source_tree kernels =
       o.kernel_folder.empty() ? kernel_sources() : runtime::read_folder(o.kernel_folder);
   for (const kernel_edit& e : o.edits) apply(e, kernels);
@@ -134,10 +147,27 @@ device_scene::device_scene(runtime::queue queue, const scene& s, options o,
 
   const std::uint64_t peak = context.peak_memory() - before;
   scene model = o.movable ? s : without_meshes(s);
-  state_ = std::make_unique<state>(
-      state{queue, std::move(o), tuned, used, in_images, in_packets, refills, std::move(kernels),
-            std::move(model), media_around_camera(s), std::move(geometry), peak, std::move(lights),
-            runtime::buffer<Faults>(1), std::nullopt, std::nullopt, std::nullopt, std::nullopt, 0});
+  state_ = std::make_unique<state>(state{queue,
+                                         std::move(o),
+                                         tuned,
+                                         used,
+                                         in_images,
+                                         in_packets,
+                                         refills,
+                                         streams,
+                                         std::move(kernels),
+                                         std::move(model),
+                                         media_around_camera(s),
+                                         std::move(geometry),
+                                         peak,
+                                         std::move(lights),
+                                         runtime::buffer<Faults>(1),
+                                         std::nullopt,
+                                         std::nullopt,
+                                         std::nullopt,
+                                         std::nullopt,
+                                         std::nullopt,
+                                         0});
 }
 
 device_scene::~device_scene() = default;
@@ -170,6 +200,11 @@ runtime::kernel device_scene::state::refilled_kernel(const char* name) {
   return refilled_program->get_kernel(name);
 }
 
+runtime::kernel device_scene::state::streamed_kernel(bool any) {
+  if (!streamed_program) streamed_program = compiled_to_trace("trace_streams.cl");
+  return streamed_program->get_kernel(any ? "trace_any" : "trace_closest");
+}
+
 runtime::kernel device_scene::state::probe_kernel(const char* name) {
   constexpr std::uint32_t one_bounce = 1;
   if (!probe_program)
@@ -183,6 +218,7 @@ runtime::kernel device_scene::state::probe_kernel(const char* name) {
 void device_scene::state::forget_programs() {
   trace_program.reset();
   refilled_program.reset();
+  streamed_program.reset();
   render_program.reset();
   probe_program.reset();
   apart.reset();
@@ -243,7 +279,7 @@ void device_scene::state::describe(statistics& s) const {
   s.platform = d.platform_name();
   s.driver = d.driver_version();
   program_set programs = geometry.programs;
-  for (const auto* p : {&trace_program, &refilled_program, &render_program})
+  for (const auto* p : {&trace_program, &refilled_program, &streamed_program, &render_program})
     if (*p) programs.add(**p);
   if (apart) apart->add_programs(programs);
   s.compile_ms = programs.build_ms();

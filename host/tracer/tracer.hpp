@@ -38,6 +38,11 @@ enum class packet_kind { automatic, on, off };
 /// the rays shows that many would wait, on devices whose warps are known.
 enum class refill_kind { automatic, on, off };
 
+/// Whether rays that do not stay close go through the tree in lists, node by node
+/// (cl/search_stream.h), or one after the other. They can beside packets, in a scene of one mesh
+/// that is placed by the identity. Hits are the same. Of `trace` alone; automatic: for many rays.
+enum class stream_kind { automatic, on, off };
+
 /// A change of the kernels' text: `from`, which must stand in `file` exactly once, becomes `to`.
 struct kernel_edit {
   std::string file, from, to;
@@ -53,6 +58,7 @@ struct options {
   std::optional<bool> samples_apart;
   std::optional<bool> glass_first;  ///< then, work-groups that come to glass; none: if it pays
   refill_kind refill = refill_kind::automatic;
+  stream_kind streams = stream_kind::automatic;
   std::uint32_t group_width = 0, group_height = 0;  ///< work-group; 0: the device's default
   bool driver_group = false;                        ///< the driver chooses the work-group instead
   std::uint32_t tile_width = 0, tile_height = 0;    ///< pixels a launch; 0: about 50 ms each
@@ -133,6 +139,7 @@ struct statistics {
   std::string layout;                  ///< "wide" or "narrow", as chosen
   std::uint32_t rays_a_work_item = 1;  ///< or pixels
   bool is_refilled = false;            ///< trace: as refill_kind has it
+  bool is_streamed = false;            ///< trace: as stream_kind has it
   bool is_tuned = false;               ///< by options::defaults, not by the kind of device
   std::string features;                ///< what the kernel was compiled with, comma-separated
   std::uint32_t tree_depth = 0;

@@ -75,6 +75,7 @@ for ((set = 0; set < 1 << ${#derived[@]}; ++set)); do
     for kernel in render.cl render_packets.cl trace.cl trace_packets.cl probe.cl refit.cl "trace.cl -DFACET_TREE_NONE"; do
       echo "$target $as $kernel$options"
     done
+    [[ $options != *FACET_NO_INSTANCES* ]] || echo "$target $as trace_streams.cl$options"
   done
 done >> "$jobs"
 # By warps, where PTX can be written: instructions of sm_70.

@@ -83,7 +83,7 @@ TEST_CASE("packets: rays that stay close give the reference's bits, and do go to
     CHECK(differing_from_reference(s, rays, portable) == 0);
     // Were no packet ever searched, nothing above would have shown anything.
     options lost = in_packets();
-    lost.edits = {{"trace_packets.cl", "search_packet(s, positions, &world, mode, part);", ""}};
+    lost.edits = {{"trace_packet.h", "search_packet(s, positions, &world, mode, part);", ""}};
     const std::size_t met = hits_of(s, rays, in_packets());
     CHECK(met > rays.size() / 2);
     CHECK(hits_of(s, rays, lost) < met / 2);
@@ -169,7 +169,7 @@ TEST_CASE("packets: rays of another main axis than most are left out and go alon
   CHECK(met > rays.size() / 4);
   // Rays go both ways: hits are lost without either.
   options wrong = in_packets();
-  wrong.edits = {{"trace_packets.cl", "search_packet(s, positions, &world, mode, part);", ""}};
+  wrong.edits = {{"trace_packet.h", "search_packet(s, positions, &world, mode, part);", ""}};
   CHECK(hits_of(s, rays, wrong) < 3 * met / 4);
   CHECK(hits_of(s, rays, wrong) > met / 10);
   // With the packet's main axis in place of their own they do not get their own bits.

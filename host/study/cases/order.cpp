@@ -9,6 +9,7 @@
 #include "study/cases/families.hpp"
 #include "study/cases/oracle.hpp"
 #include "study/cases/shapes.hpp"
+#include "tracer/features.hpp"
 
 namespace facet::study {
 namespace {
@@ -29,7 +30,7 @@ layout_kind other_layout(const lab& l) {
 }
 
 /// Trees, how and where geometry lies, three work-groups, features left out or not.
-std::vector<way> ways(const lab& l, bool with_brute_force) {
+std::vector<way> ways(const lab& l, const scene& s, bool with_brute_force) {
   std::vector<way> all;
   const auto add = [&](std::string name, tree_kind tree, geometry_kind geometry, std::uint32_t w,
                        std::uint32_t h, bool every_feature) {
@@ -53,6 +54,13 @@ std::vector<way> ways(const lab& l, bool with_brute_force) {
     add(name + ", buffer, the other layout", tree, geometry_kind::buffer, 0, 0, false);
     all.back().options.layout = other_layout(l);
     add(name + ", image, 64", tree, geometry_kind::image, 0, 0, false);
+  }
+  // For CPUs, and for one mesh in place.
+  if (!l.queue.get_device().is_gpu() && !tracer::features::of(s).instances) {
+    add("binned, buffer, streams", tree_kind::binned, geometry_kind::buffer, 0, 0, false);
+    all.back().options.layout = layout_kind::wide;
+    all.back().options.packets = tracer::packet_kind::on;
+    all.back().options.streams = tracer::stream_kind::on;
   }
   add("binned, buffer, refilled", tree_kind::binned, geometry_kind::buffer, 0, 0, false);
   all.back().options.layout = layout_kind::narrow;
@@ -178,7 +186,7 @@ void compare_ways(lab& l, const char* name, const scene& s, std::uint64_t count,
     std::vector<std::uint64_t> different{};
   };
   std::vector<entry> all;
-  for (const way& w : ways(l, with_brute_force))
+  for (const way& w : ways(l, s, with_brute_force))
     all.push_back({std::string(name) + ": " + w.name, l.place(s, w.options), w.in_packets});
 
   in_batches(l, count, [&](std::uint64_t first, std::uint64_t size) {
