@@ -1,5 +1,6 @@
 // Row `trace`: primary, shadow and bounce rays on an OpenCL device (event times), beside Embree on
 // the CPU's threads, the same rays, alternated in one run.
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -21,7 +22,8 @@ namespace {
 using json = nlohmann::ordered_json;
 
 struct settings {
-  std::vector<std::string> meshes{"terrain:1000", "soup:1000000"}, peers{"single", "packets"};
+  std::vector<std::string> meshes{"terrain:1000", "soup:1000000"}, peers{"single", "packets"},
+      kinds{"primary", "shadow", "bounce"};
   std::string device = "0", geometry = "auto", tree = "binned", layout = "auto", packets = "auto",
               refill = "auto", streams = "auto", kernels, tuning, json;
   int repeat = 5;
@@ -156,15 +158,21 @@ void run(const settings& o) {
     tracer::device_scene ours(queue, s, options, given);
     std::vector<peer> peers = peers_of(s.meshes[0], o);
 
-    std::vector<tracer::hit> hits, ignored;
     auto& results = report["results"];
-    results.push_back(measure(name, "primary", primary, false, ours, peers, o, hits));
+    const auto measured = [&](const char* kind, const std::vector<ray>& rays, bool any) {
+      std::vector<tracer::hit> found;
+      if (std::ranges::find(o.kinds, kind) != o.kinds.end())
+        results.push_back(measure(name, kind, rays, any, ours, peers, o, found));
+      return found;
+    };
+    std::vector<tracer::hit> hits = measured("primary", primary, false);
+    if (hits.empty()) hits = ours.trace(packed(primary));  // where the others start
     std::vector<hit> met;
     for (const tracer::hit& h : hits) met.push_back({h.t, h.u, h.v, h.instance, h.triangle});
     const std::vector<ray> shadow = shadow_rays(s.meshes[0], primary, met);
     const std::vector<ray> bounce = bounce_rays(s.meshes[0], primary, met);
-    results.push_back(measure(name, "shadow", shadow, true, ours, peers, o, ignored));
-    results.push_back(measure(name, "bounce", bounce, false, ours, peers, o, ignored));
+    measured("shadow", shadow, true);
+    measured("bounce", bounce, false);
 
     tracer::statistics st;
     ours.trace({}, false, 1, &st);
@@ -191,6 +199,9 @@ void add_trace_row(CLI::App& app) {
   CLI::App* row =
       app.add_subcommand("trace", "Device against Embree: primary, shadow, bounce rays");
   row->add_option("--mesh", o->meshes, "OBJ files, terrain:N or soup:N")->capture_default_str();
+  row->add_option("--rays", o->kinds, "kinds of rays")
+      ->check(CLI::IsMember({"primary", "shadow", "bounce"}))
+      ->capture_default_str();
   row->add_option("--device", o->device, "index, or part of a name")->capture_default_str();
   row->add_option("--geometry", o->geometry)
       ->check(CLI::IsMember({"auto", "image", "buffer"}))

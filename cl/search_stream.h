@@ -165,15 +165,19 @@ APART void search_list(const Scene* s, GEOMETRY positions, __global Stream* x, u
 
 // All `count` rays of a stream, kind by kind: those of one meet the same sides of boxes first.
 static inline void search_stream(const Scene* s, GEOMETRY positions, __global Stream* x, uint count, uint mode) {
+  uint of_kind[8] = {0u}, end[8], sum = 0u;
+  for (uint i = 0u; i < count; ++i) ++of_kind[x->kind[i]];
+  for (uint kind = 0u; kind < 8u; ++kind) end[kind] = sum, sum += of_kind[kind];
+  for (uint i = 0u; i < count; ++i) x->order[end[x->kind[i]]++] = i;
   for (uint kind = 0u; kind < 8u; ++kind) {
-    uint alike = 0u;
-    for (uint i = 0u; i < count; ++i) {
-      x->list[alike] = i;
-      x->near[alike] = -INFINITY;
-      alike += x->kind[i] == kind ? 1u : 0u;
+    const uint alike = of_kind[kind], first = end[kind] - alike;
+    if (alike == 0u) continue;
+    for (uint i = 0u; i < alike; ++i) {
+      x->list[i] = x->order[first + i];
+      x->near[i] = -INFINITY;
     }
     const Sides near_at = {kind & 1u ? FACET_SIDE : 0u, kind & 2u ? FACET_SIDE : 0u, kind & 4u ? FACET_SIDE : 0u};
-    if (alike != 0u) search_list(s, positions, x, alike, near_at, mode);
+    search_list(s, positions, x, alike, near_at, mode);
   }
 }
 

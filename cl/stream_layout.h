@@ -9,7 +9,7 @@ namespace facet::tracer {
 #endif
 
 // Rays of a stream at most, and rays in all lists that wait at once: more go alone.
-#define FACET_STREAM 2048u
+#define FACET_STREAM 4096u
 #define FACET_LISTS (8u * FACET_STREAM)
 
 // What nodes ask of a ray, and its best hit so far.
@@ -33,7 +33,8 @@ struct FACET_ALIGNED StreamRest {
 struct FACET_ALIGNED Stream {
   struct StreamRay ray[FACET_STREAM];
   struct StreamRest rest[FACET_STREAM];
-  uint kind[FACET_STREAM];  // the signs of its direction, three bits
+  uint kind[FACET_STREAM];   // the signs of its direction, three bits
+  uint order[FACET_STREAM];  // rays, kind by kind
   // The lists that wait, one after the other: rays, and where each meets the node's box. After them is room for
   // what is written and not wanted.
   uint list[FACET_LISTS + 4u];
@@ -52,7 +53,7 @@ typedef struct Stream Stream;
 
 FACET_SIZE(StreamRay, 64)
 FACET_SIZE(StreamRest, 32)
-FACET_SIZE(Stream, FACET_STREAM * (64u + 32u + 4u + 64u + 8u + 32u) + 64u)
+FACET_SIZE(Stream, FACET_STREAM * (64u + 32u + 8u + 64u + 8u + 32u) + 64u)
 
 #ifndef __OPENCL_C_VERSION__
 }  // namespace facet::tracer
