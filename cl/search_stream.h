@@ -57,7 +57,6 @@ static inline int8 part_list(__global const float* faces, Sides near_at, __globa
     *at = meets ? near : *at;
     x->parted[i] = ray;
     x->meets[i] = lanes_of(meets);
-    vstore8(near, i, x->meets_at);
   }
   return counts;
 }
@@ -78,11 +77,10 @@ static inline void order_lists(int8 counts, Each at, uint begin, int8* place, in
 
 // Puts a ray on the list of its first child but those that went before, if there is one: without a branch, for one
 // that is 8 stands for none, and nothing keeps what is written there.
-static inline uint put_on_list(__global Stream* x, uint lanes, uint ray, __global const float* near, uint* end) {
+static inline uint put_on_list(__global Stream* x, uint lanes, uint ray, uint* end) {
   const uint child = first_lane(lanes | 1u << FACET_LANES), to = end[child];
   end[child] = to + (child < FACET_LANES ? 1u : 0u);
   x->list[to] = ray;
-  x->near[to] = near[child];
   return without_first(lanes | 1u << FACET_LANES) & ((1u << FACET_LANES) - 1u);
 }
 
@@ -100,7 +98,7 @@ static inline void enter_node(const Scene* s, GEOMETRY positions, __global Strea
   const int8 counts = part_list(n->x[0], near_at, x, begin, count, &at);
   uint lanes = lanes_of(counts != 0);
   if (begin + (uint)sum_of(counts) > FACET_LISTS) {
-    for (uint i = 0u; i < count; ++i) add_walker(s, positions, x, alone, node, x->parted[i], x->near[begin + i], mode);
+    for (uint i = 0u; i < count; ++i) add_walker(s, positions, x, alone, node, x->parted[i], mode);
     return;
   }
   int8 place, first;
@@ -121,11 +119,10 @@ static inline void enter_node(const Scene* s, GEOMETRY positions, __global Strea
   for (; lanes != 0u; lanes = without_first(lanes)) fetch_child(s, positions, n->child[first_lane(lanes)]);
   // Few rays meet more than two children.
   for (uint i = 0u; i < count; ++i) {
-    __global const float* near = x->meets_at + FACET_LANES * i;
     const uint ray = x->parted[i];
-    uint left = put_on_list(x, x->meets[i], ray, near, end);
-    left = put_on_list(x, left, ray, near, end);
-    while (left != 0u) left = put_on_list(x, left, ray, near, end);
+    uint left = put_on_list(x, x->meets[i], ray, end);
+    left = put_on_list(x, left, ray, end);
+    while (left != 0u) left = put_on_list(x, left, ray, end);
   }
 }
 
@@ -133,7 +130,7 @@ APART void meet_leaf(const Scene* s, GEOMETRY positions, __global Stream* x, uin
                      uint mode) {
   for (uint i = begin; i < begin + count; ++i) {
     const uint ray = x->list[i];
-    if (x->near[i] > x->ray[ray].t) continue;
+    if (mode == FACET_ANY && x->ray[ray].slot != FACET_NONE) continue;
     meet_block_alone(s, positions, block, &x->ray[ray], &x->rest[ray], mode);
   }
 }
@@ -151,7 +148,7 @@ APART void search_list(const Scene* s, GEOMETRY positions, __global Stream* x, u
   uint node = s->root, begin = 0u;
   for (;;) {
     if (count == 1u)
-      add_walker(s, positions, x, &alone, node, x->list[begin], x->near[begin], mode);
+      add_walker(s, positions, x, &alone, node, x->list[begin], mode);
     else if (node & FACET_LEAF_BIT)
       meet_leaf(s, positions, x, FACET_LEAF_FIRST(node), begin, count, mode);
     else
@@ -172,10 +169,7 @@ static inline void search_stream(const Scene* s, GEOMETRY positions, __global St
   for (uint kind = 0u; kind < 8u; ++kind) {
     const uint alike = of_kind[kind], first = end[kind] - alike;
     if (alike == 0u) continue;
-    for (uint i = 0u; i < alike; ++i) {
-      x->list[i] = x->order[first + i];
-      x->near[i] = -INFINITY;
-    }
+    for (uint i = 0u; i < alike; ++i) x->list[i] = x->order[first + i];
     const Sides near_at = {kind & 1u ? FACET_SIDE : 0u, kind & 2u ? FACET_SIDE : 0u, kind & 4u ? FACET_SIDE : 0u};
     search_list(s, positions, x, alike, near_at, mode);
   }

@@ -9,7 +9,7 @@ namespace facet::tracer {
 #endif
 
 // Rays of a stream at most, and rays in all lists that wait at once: more go alone.
-#define FACET_STREAM 4096u
+#define FACET_STREAM 16384u
 #define FACET_LISTS (8u * FACET_STREAM)
 
 // What nodes ask of a ray, and its best hit so far.
@@ -35,14 +35,10 @@ struct FACET_ALIGNED Stream {
   struct StreamRest rest[FACET_STREAM];
   uint kind[FACET_STREAM];   // the signs of its direction, three bits
   uint order[FACET_STREAM];  // rays, kind by kind
-  // The lists that wait, one after the other: rays, and where each meets the node's box. After them is room for
-  // what is written and not wanted.
+  // The lists that wait, one after the other. After them is room for what is written and not wanted.
   uint list[FACET_LISTS + 4u];
-  float near[FACET_LISTS + 4u];
-  // Of the list that is being parted, by its places: the rays, which children they meet, and where.
+  // Of the list that is being parted, by its places: the rays, and which children they meet.
   uint parted[FACET_STREAM], meets[FACET_STREAM];
-  float meets_at[FACET_STREAM * 8u];
-  float spare[8];
 };
 
 #ifdef __OPENCL_C_VERSION__
@@ -53,7 +49,7 @@ typedef struct Stream Stream;
 
 FACET_SIZE(StreamRay, 64)
 FACET_SIZE(StreamRest, 32)
-FACET_SIZE(Stream, FACET_STREAM * (64u + 32u + 8u + 64u + 8u + 32u) + 64u)
+FACET_SIZE(Stream, FACET_STREAM * (64u + 32u + 8u + 32u + 8u) + 16u)
 
 #ifndef __OPENCL_C_VERSION__
 }  // namespace facet::tracer

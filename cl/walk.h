@@ -10,10 +10,9 @@
 #define WALKS 8u
 #define WALKS_WAIT 32u
 
-// Those that wait: rays, the nodes to go on from, and where each meets its node's box.
+// Those that wait: rays, and the nodes to go on from.
 typedef struct {
   uint node[WALKS_WAIT], ray[WALKS_WAIT];
-  float near[WALKS_WAIT];
   uint count;
 } Walkers;
 
@@ -57,16 +56,13 @@ static inline bool walk_on(const Scene* s, GEOMETRY positions, Walk* w, uint mod
 
 // Begins with the next that waits; false if there is none.
 static inline bool begin_walk(__global Stream* x, const Walkers* all, uint* next, Walk* w) {
-  while (*next < all->count) {
-    const uint k = (*next)++, ray = all->ray[k];
-    if (all->near[k] > x->ray[ray].t) continue;
-    w->ray = &x->ray[ray];
-    w->rest = &x->rest[ray];
-    w->node = all->node[k];
-    w->top = 0;
-    return true;
-  }
-  return false;
+  if (*next == all->count) return false;
+  const uint k = (*next)++, ray = all->ray[k];
+  w->ray = &x->ray[ray];
+  w->rest = &x->rest[ray];
+  w->node = all->node[k];
+  w->top = 0;
+  return true;
 }
 
 // All that wait, to their ends.
@@ -87,11 +83,10 @@ APART void walk(const Scene* s, GEOMETRY positions, __global Stream* x, Walkers*
 }
 
 static inline void add_walker(const Scene* s, GEOMETRY positions, __global Stream* x, Walkers* all, uint node, uint ray,
-                              float near, uint mode) {
+                              uint mode) {
   const uint k = all->count++;
   all->node[k] = node;
   all->ray[k] = ray;
-  all->near[k] = near;
   if (all->count == WALKS_WAIT) walk(s, positions, x, all, mode);
 }
 
