@@ -51,9 +51,8 @@ APART uint add_rays(__global Stream* x, uint* count, Points o, Points d, Real tm
   const uint taken = which & lanes_of(s.usable & (tmin <= tmax));
   const Points c = s.inverse, n = s.near_offset, f = s.far_offset;
   const uint8 lane = (uint8)(0u, 1u, 2u, 3u, 4u, 5u, 6u, 7u);
-  const Real none = as_float8((uint8)(FACET_NONE));
   Real ray[8] = {c.x, c.y, c.z, n.x, n.y, n.z, f.x, f.y};
-  Real more[8] = {f.z, tmin, tmax, none, s.o.x, s.o.y, s.o.z, as_float8(s.axis)};
+  Real more[8] = {f.z, tmin, tmax, in_all(0.0f), s.o.x, s.o.y, s.o.z, as_float8(s.axis)};
   Real rest[8] = {s.shear_x,    s.shear_y,    s.unit,       s.t_of_unit,
                   in_all(0.0f), in_all(0.0f), in_all(0.0f), as_float8(lane + from)};
   transpose(ray);
@@ -66,6 +65,7 @@ APART uint add_rays(__global Stream* x, uint* count, Points o, Points d, Real tm
     __global float *to_ray = (__global float*)&x->ray[at], *to_rest = (__global float*)&x->rest[at];
     vstore8(ray[i], 0, to_ray);
     vstore8(more[i], 1, to_ray);
+    x->ray[at].slot = FACET_NONE;
     vstore8(rest[i], 0, to_rest);
     x->kind[at] = kind[i];
   }

@@ -75,7 +75,12 @@ kernel_edits with_direction() {
           {"space.h", "  r->shear_x = ", "  r->direction = main;\n  r->shear_x = "},
           {"space.h", "  s.axis = r->axis;\n",
            "  s.direction = swapped(r->axis, point_in_lane(&r->direction, lane));\n  s.axis = "
-           "r->axis;\n"}};
+           "r->axis;\n"},
+          // 1 / d_z is t_of_unit * unit, and rounded.
+          {"stream.h", "  r.axis = ray->axis",
+           "  r.direction.z = 1.0f / (r.t_of_unit * r.unit);\n"
+           "  r.direction.x = r.shear_x * r.direction.z;\n"
+           "  r.direction.y = r.shear_y * r.direction.z;\n  r.axis = ray->axis"}};
 }
 
 kernel_edits moller_trumbore_test() {

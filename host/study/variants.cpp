@@ -11,7 +11,9 @@ kernel_edits unordered() {
        "t >= q->t && (t > q->t || (q->slot != FACET_NONE && !is_before(s, place, slot, q->place, "
        "q->slot)))",
        "t >= q->t"},
-      {"search_packet.h", "lanes_of(met & (hits.t == p->t))", "0u"}};
+      {"search_packet.h", "lanes_of(met & (hits.t == p->t))", "0u"},
+      {"stream.h", "t > ray->t || (best != FACET_NONE && !is_before(s, 0u, slot, 0u, best))",
+       "true"}};
 }
 
 kernel_edits unheld() { return {{"triangle.h", "if (!is_none(is_held))", "if (false)"}}; }
@@ -21,6 +23,7 @@ kernel_edits unchecked() {
       {"space.h", "largest >= 8.673617379884035e-19f &&", "true ||"},
       {"box.h", "is_known = fabs(c) < INFINITY;", "is_known = (int3)(-1);"},
       {"packet.h", "return is_all(has_way) && ", "return "},
+      {"stream.h", "which & lanes_of(s.usable & (tmin <= tmax))", "which"},
       {"packet.h", "if (!is_all(fabs(offsets) < INFINITY)) return 0u;", ""},
       {"packet.h", "if (!are_rays_usable(&space->beam, axis, most_of(extent))) return 0u;", ""},
       {"packet.h", "is_main_axis(&space->beam, axis) ? WHOLE_PACKET : rays_of_axis(space->rays)",

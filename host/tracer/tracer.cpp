@@ -94,14 +94,16 @@ bool may_refill(const options& o, bool is_wide, const tuning& t) {
 }
 
 /// Whether stream_kind::automatic may mean on.
-bool may_stream(const options& o, bool in_packets, const features& used) {
-  const bool can = in_packets && !used.instances;
+bool may_stream(const options& o, bool in_packets, const features& used, const runtime::device& d) {
+  const bool can = in_packets && !used.instances && !d.is_gpu();
   if (o.streams == stream_kind::on && !can)
-    throw runtime::exception(
-        runtime::errc::invalid,
-        "streams of rays were asked for, which take packets and a scene of one "
-        "mesh that is placed by the identity; found " +
-            std::string(in_packets ? "instances" : "no packets"));
+    throw runtime::exception(runtime::errc::invalid,
+                             "streams of rays were asked for, which take a CPU, packets, and a "
+                             "scene of one mesh that is placed by the "
+                             "identity; found " +
+                                 std::string(!in_packets      ? "no packets"
+                                             : used.instances ? "instances"
+                                                              : "a GPU"));
   return can && o.streams != stream_kind::off;
 }
 
@@ -131,7 +133,7 @@ device_scene::device_scene(runtime::queue queue, const scene& s, options o,
   const bool in_images = is_in_images(o, tuned);
   const bool wide = is_wide(o, in_images, tuned);
   const bool in_packets = is_in_packets(o, wide, tuned), refills = may_refill(o, wide, tuned),
-             streams = may_stream(o, in_packets, used);
+             streams = may_stream(o, in_packets, used, queue.get_device());
   runtime::source_tree kernels =
       o.kernel_folder.empty() ? kernel_sources() : runtime::read_folder(o.kernel_folder);
   for (const kernel_edit& e : o.edits) apply(e, kernels);

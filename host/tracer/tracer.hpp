@@ -39,8 +39,9 @@ enum class packet_kind { automatic, on, off };
 enum class refill_kind { automatic, on, off };
 
 /// Whether rays that do not stay close go through the tree in lists, node by node
-/// (cl/search_stream.h), or one after the other. They can beside packets, in a scene of one mesh
-/// that is placed by the identity. Hits are the same. Of `trace` alone; automatic: for many rays.
+/// (cl/search_stream.h), or one after the other. They can on a CPU, beside packets, in a scene of
+/// one mesh that is placed by the identity. Hits are the same. Of `trace` alone; automatic: for
+/// many rays.
 enum class stream_kind { automatic, on, off };
 
 /// A change of the kernels' text: `from`, which must stand in `file` exactly once, becomes `to`.

@@ -21,6 +21,12 @@ using tracer::stream_kind;
 
 namespace {
 
+/// Streams are a CPU's.
+bool is_skipped() {
+  if (test::device().is_gpu()) MESSAGE("skipped: streams are for CPUs");
+  return test::device().is_gpu();
+}
+
 options in_streams() {
   options o;
   o.layout = tracer::layout_kind::wide;
@@ -80,6 +86,7 @@ mesh pile(std::uint32_t squares) {
 }  // namespace
 
 TEST_CASE("streams: scattered rays give the reference's bits, and do go in lists and alone") {
+  if (is_skipped()) return;
   const mesh meshes[] = {generate("torus_knot", {{"segments", 64}, {"sides", 8}}),
                          test::random_soup(3000, 1)};
   const auto rays = scattered_rays(10000, 7);
@@ -108,6 +115,7 @@ TEST_CASE("streams: scattered rays give the reference's bits, and do go in lists
 }
 
 TEST_CASE("streams: a list that has no room left goes on ray by ray") {
+  if (is_skipped()) return;
   const scene s = test::one_mesh(pile(300));
   test::random r(3);
   std::vector<ray> rays;
@@ -130,6 +138,7 @@ TEST_CASE("streams: a list that has no room left goes on ray by ray") {
 }
 
 TEST_CASE("streams: rays that are odd or cannot be used are as they are by themselves") {
+  if (is_skipped()) return;
   const mesh m = test::random_soup(500, 3);
   const scene s = test::one_mesh(m);
   const ray odd[] = {{{0, 0, 3}, 0, {0, 0, -1}, INFINITY},
@@ -168,6 +177,7 @@ TEST_CASE("streams: rays that are odd or cannot be used are as they are by thems
 
 TEST_CASE(
     "streams: any number of rays, whole streams or not, and none of a scene without triangles") {
+  if (is_skipped()) return;
   const scene s = test::one_mesh(generate("icosphere", {{"subdivisions", 2}}));
   const auto rays = scattered_rays(2 * FACET_STREAM + 40, 2);
   for (const std::size_t n : {1u, FACET_PACKET - 1, FACET_PACKET, FACET_PACKET + 1,
@@ -181,6 +191,7 @@ TEST_CASE(
 }
 
 TEST_CASE("streams: of coincident triangles the lowest is hit, whichever is met first") {
+  if (is_skipped()) return;
   mesh m = pile(1);
   const std::vector<std::uint32_t> square = m.indices;
   for (int k = 1; k < 300; ++k) m.indices.insert(m.indices.end(), square.begin(), square.end());
@@ -193,6 +204,7 @@ TEST_CASE("streams: of coincident triangles the lowest is hit, whichever is met 
 }
 
 TEST_CASE("streams: where they cannot be they are refused, and few rays do not take them") {
+  if (is_skipped()) return;
   options alone = in_streams();
   alone.packets = packet_kind::off;
   CHECK_THROWS_WITH_AS(device_scene(test::queue(), test::one_mesh(generate("box", {})), alone),
