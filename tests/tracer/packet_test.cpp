@@ -5,12 +5,15 @@
 #include <vector>
 
 #include "tracer/device_helper.hpp"
+#include "tracer/hits_helper.hpp"
 #include "tracer/layout.hpp"
 #include "tracer/reference_helper.hpp"
 #include "tracer/scenes_helper.hpp"
 #include "tracer/tracer.hpp"
 
 using namespace facet;
+using test::differing_from_reference;
+using test::hits_of;
 using tracer::device_scene;
 using tracer::hit;
 using tracer::options;
@@ -48,25 +51,6 @@ std::vector<ray> close_rays(const mesh& m, std::size_t packets, std::uint64_t se
     }
   }
   return rays;
-}
-
-std::size_t differing_from_reference(const scene& s, const std::vector<ray>& rays, options o) {
-  const reference::tracer<float> serial(s);
-  device_scene on(test::queue(), s, std::move(o));
-  const auto hits = on.trace(rays), any = on.trace(rays, true);
-  std::size_t differing = 0;
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    const auto e = serial.closest(test::to_reference(rays[i]));
-    differing += !test::same_bits(hits[i], e) ||
-                 (any[i].triangle != tracer::miss) != (e.instance != reference::miss);
-  }
-  return differing;
-}
-
-std::size_t hits_of(const scene& s, const std::vector<ray>& rays, options o) {
-  const auto hits = device_scene(test::queue(), s, std::move(o)).trace(rays);
-  return std::size_t(std::count_if(hits.begin(), hits.end(),
-                                   [](const hit& h) { return h.triangle != tracer::miss; }));
 }
 
 }  // namespace

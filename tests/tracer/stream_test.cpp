@@ -1,17 +1,18 @@
 // Rays that go through the tree in lists against the reference, bit for bit.
 #include <doctest/doctest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "tracer/device_helper.hpp"
+#include "tracer/hits_helper.hpp"
 #include "tracer/layout.hpp"
-#include "tracer/reference_helper.hpp"
 #include "tracer/scenes_helper.hpp"
 #include "tracer/tracer.hpp"
 
 using namespace facet;
+using test::differing_from_reference;
+using test::hits_of;
 using tracer::device_scene;
 using tracer::hit;
 using tracer::options;
@@ -50,25 +51,6 @@ std::vector<ray> scattered_rays(std::size_t count, std::uint64_t seed) {
     rays.push_back({{o.x, o.y, o.z}, 0, {d.x, d.y, d.z}, i % 8 == 3 ? 0.7f : INFINITY});
   }
   return rays;
-}
-
-std::size_t differing_from_reference(const scene& s, const std::vector<ray>& rays, options o) {
-  const reference::tracer<float> serial(s);
-  device_scene on(test::queue(), s, std::move(o));
-  const auto hits = on.trace(rays), any = on.trace(rays, true);
-  std::size_t differing = 0;
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    const auto e = serial.closest(test::to_reference(rays[i]));
-    differing += !test::same_bits(hits[i], e) ||
-                 (any[i].triangle != tracer::miss) != (e.instance != reference::miss);
-  }
-  return differing;
-}
-
-std::size_t hits_of(const scene& s, const std::vector<ray>& rays, options o) {
-  const auto hits = device_scene(test::queue(), s, std::move(o)).trace(rays);
-  return std::size_t(std::count_if(hits.begin(), hits.end(),
-                                   [](const hit& h) { return h.triangle != tracer::miss; }));
 }
 
 /// Parallel squares one behind the other, of two triangles each: a ray along them meets all boxes.
