@@ -30,8 +30,9 @@ struct device_scene::state {
   std::uint64_t peak_bytes = 0;  ///< of device memory while the geometry was made
   runtime::buffer<Light> lights;
   runtime::buffer<Faults> faults;
-  std::optional<runtime::program> trace_program, refilled_program, streamed_program, render_program,
-      probe_program;
+  std::optional<runtime::program> trace_program = std::nullopt, refilled_program = std::nullopt,
+                                  streamed_program = std::nullopt, render_program = std::nullopt,
+                                  probe_program = std::nullopt;
   std::uint32_t render_stack = 0;  ///< entries of pending rays that render_program was built for
   std::shared_ptr<sample_renderer> apart = nullptr;  ///< of the last picture by samples apart
   std::shared_ptr<scene_mover> mover = nullptr;      ///< from the first move on

@@ -149,27 +149,10 @@ device_scene::device_scene(runtime::queue queue, const scene& s, options o,
 
   const std::uint64_t peak = context.peak_memory() - before;
   scene model = o.movable ? s : without_meshes(s);
-  state_ = std::make_unique<state>(state{queue,
-                                         std::move(o),
-                                         tuned,
-                                         used,
-                                         in_images,
-                                         in_packets,
-                                         refills,
-                                         streams,
-                                         std::move(kernels),
-                                         std::move(model),
-                                         media_around_camera(s),
-                                         std::move(geometry),
-                                         peak,
-                                         std::move(lights),
-                                         runtime::buffer<Faults>(1),
-                                         std::nullopt,
-                                         std::nullopt,
-                                         std::nullopt,
-                                         std::nullopt,
-                                         std::nullopt,
-                                         0});
+  state_ = std::make_unique<state>(state{queue, std::move(o), tuned, used, in_images, in_packets,
+                                         refills, streams, std::move(kernels), std::move(model),
+                                         media_around_camera(s), std::move(geometry), peak,
+                                         std::move(lights), runtime::buffer<Faults>(1)});
 }
 
 device_scene::~device_scene() = default;
