@@ -7,6 +7,7 @@
 #include "bench/measure.hpp"
 #include "bench/result_file.hpp"
 #include "bench/rows.hpp"
+#include "bench/stream_choice.hpp"
 #include "bench/workload.hpp"
 #include "runtime/runtime.hpp"
 #include "study/statistics.hpp"
@@ -19,7 +20,8 @@ using json = nlohmann::ordered_json;
 
 struct settings {
   std::vector<std::string> meshes{"terrain:1000", "soup:1000000"};
-  std::string device = "0", flags, json;
+  std::string device = "0", flags, kernels, json;
+  tracer::stream_kind streams = tracer::stream_kind::automatic;
   int repeat = 15, slices = 1;
   bool with_guards = true;
 };
@@ -127,6 +129,8 @@ void run(const settings& o) {
     std::vector<entry> all;
     tracer::options options;
     options.compiler_flags = o.flags;
+    options.streams = o.streams;
+    options.kernel_folder = o.kernels;
     all.push_back({{"strict", "the library's kernel"}, tracer::device_scene(queue, s, options)});
     for (const study::variant& v : study::inexact_variants())
       all.push_back({v, tracer::device_scene(queue, s, study::with(v, options)), true});
@@ -154,6 +158,8 @@ void add_exactness_row(CLI::App& app) {
   row->add_option("--mesh", o->meshes, "OBJ files, terrain:N or soup:N")->capture_default_str();
   row->add_option("--device", o->device, "index, or part of a name")->capture_default_str();
   row->add_option("--flags", o->flags, "more of the compiler's options, for all alike");
+  add_streams_option(*row, o->streams);
+  row->add_option("--kernels", o->kernels, "read cl/ from this folder");
   row->add_option("--repeat", o->repeat, "runs of each figure, alternated")
       ->check(CLI::Range(2, 1000))
       ->capture_default_str();

@@ -10,6 +10,7 @@
 #include "bench/measure.hpp"
 #include "bench/result_file.hpp"
 #include "bench/rows.hpp"
+#include "bench/stream_choice.hpp"
 #include "runtime/runtime.hpp"
 #include "study/statistics.hpp"
 #include "study/tree_makers.hpp"
@@ -25,7 +26,8 @@ struct settings {
   std::vector<std::string> meshes{"terrain:1000", "soup:1000000"}, peers{"single", "packets"},
       kinds{"primary", "shadow", "bounce"};
   std::string device = "0", geometry = "auto", tree = "binned", layout = "auto", packets = "auto",
-              refill = "auto", streams = "auto", kernels, tuning, json;
+              refill = "auto", kernels, tuning, json;
+  tracer::stream_kind streams = tracer::stream_kind::automatic;
   int repeat = 5;
   unsigned threads = std::thread::hardware_concurrency();
 };
@@ -128,9 +130,7 @@ void run(const settings& o) {
   options.refill = o.refill == "on"    ? tracer::refill_kind::on
                    : o.refill == "off" ? tracer::refill_kind::off
                                        : tracer::refill_kind::automatic;
-  options.streams = o.streams == "on"    ? tracer::stream_kind::on
-                    : o.streams == "off" ? tracer::stream_kind::off
-                                         : tracer::stream_kind::automatic;
+  options.streams = o.streams;
   options.kernel_folder = o.kernels;
   if (!o.tuning.empty()) options.defaults = study::tuned_values(o.tuning, device);
   const std::string peer_name = embree_version();
@@ -218,10 +218,7 @@ void add_trace_row(CLI::App& app) {
   row->add_option("--refill", o->refill, "warps take new rays while others are on their way")
       ->check(CLI::IsMember({"auto", "on", "off"}))
       ->capture_default_str();
-  row->add_option("--streams", o->streams,
-                  "rays that do not stay close go through the tree in lists")
-      ->check(CLI::IsMember({"auto", "on", "off"}))
-      ->capture_default_str();
+  add_streams_option(*row, o->streams);
   row->add_option("--kernels", o->kernels, "read cl/ from this folder");
   row->add_option("--tuning", o->tuning,
                   "a table of `facet tune`, in place of the built-in defaults");

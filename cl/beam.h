@@ -5,81 +5,87 @@
 
 #include "space.h"
 
-// Of one axis: bounds of the terms of all rays' slabs as seen from `centre`, a point among their origins.
+// Bounds of the terms of all rays' slabs as seen from `centre`, a point among their origins: of x, y, z and once more z.
 typedef struct {
-  float centre;
-  float least_inverse, most_inverse;
-  float near_offset, far_offset;
-  uint side;  // that they meet first (box.h: Sides)
-} BeamAxis;
-
-typedef struct {
-  BeamAxis x, y, z;
-  float tmin;  // the least
+  float centre[4];
+  float least_inverse[4], most_inverse[4];
+  float near_offset[4], far_offset[4];
+  uint side[3];  // that they meet first (box.h: Sides)
+  float tmin;    // the least
 } Beam;
+
+// Bounds of the lanes of each of eight vectors, which are halved three times; `largest` is a literal.
+static inline Each halved(Each a, Each b, bool largest) {
+  const Each even = (Each)(a.even, b.even), odd = (Each)(a.odd, b.odd);
+  return largest ? larger_each(even, odd) : smaller_each(even, odd);
+}
+static inline Each bounds_of_lanes(const Each a[8], bool largest) {
+  const Each b = halved(a[0], a[1], largest), c = halved(a[2], a[3], largest), d = halved(a[4], a[5], largest),
+             e = halved(a[6], a[7], largest);
+  return halved(halved(b, c, largest), halved(d, e, largest), largest);
+}
+
+// Of three axes: the least and the largest |inverse| there.
+static inline float4 flattest(const Beam* b) {
+  return FACET_CULL_MIN(fabs(vload4(0, b->least_inverse)), fabs(vload4(0, b->most_inverse)));
+}
+static inline float4 steepest(const Beam* b) {
+  return FACET_CULL_MAX(fabs(vload4(0, b->least_inverse)), fabs(vload4(0, b->most_inverse)));
+}
 
 // Of terms that are each a bound over some of the rays, a lane each; near and far are offsets plus centre *
 // inverse. Where a ray crosses a face is, in exact arithmetic, (face - centre) * inverse + (offset + centre *
 // inverse): the product lies between those with the least and the most inverse. What floats make of either form
 // is off by less than 8 u E |inverse|, E as in box.h, and 16 are allowed for.
-static inline BeamAxis beam_axis(float centre, Real least, Real most, Real near, Real far, float extent) {
-  BeamAxis a;
-  a.centre = centre;
-  a.least_inverse = least_of(least);
-  a.most_inverse = most_of(most);
-  const float slack =
-      (16.0f * FACET_ULP) * extent * cull_max1(fabs(a.least_inverse), fabs(a.most_inverse));
-  a.near_offset = least_of(near) - slack;
-  a.far_offset = most_of(far) + slack;
-  a.side = a.least_inverse > 0.0f ? 0u : FACET_SIDE;
-  return a;
+//
+// False if space_of might not take all rays, or not know their offsets, but for directions that are too short.
+// Inverse directions are asked, whose bounds are known; none of them is NaN.
+static inline bool beam_of_bounds(float3 centre, Points least, Points most, Points near, Points far, Real tmin,
+                                  Real extent, Beam* b) {
+  const Each low[8] = {least.x, least.y, least.z, tmin, near.x, near.y, near.z, near.z};
+  const Each high[8] = {most.x, most.y, most.z, extent, far.x, far.y, far.z, far.z};
+  const Each from = bounds_of_lanes(low, false), to = bounds_of_lanes(high, true);
+  vstore4(centre.xyzz, 0, b->centre);
+  vstore4(from.s0122, 0, b->least_inverse);
+  vstore4(to.s0122, 0, b->most_inverse);
+  const float4 steep = steepest(b), product = to.s3 * steep, slack = (16.0f * FACET_ULP) * product;
+  vstore4(from.hi - slack, 0, b->near_offset);
+  vstore4(to.hi + slack, 0, b->far_offset);
+  for (int i = 0; i < 3; ++i) b->side[i] = b->least_inverse[i] > 0.0f ? 0u : FACET_SIDE;
+  b->tmin = from.s3;
+  return is_all((Mask)(flattest(b) >= 0x1p-50f, (product <= 0x1p100f) & (to.s3333 <= 0x1p50f)));
 }
 
-// The least and the largest |inverse|.
-static inline float flattest(const BeamAxis* a) {
-  return cull_min1(fabs(a->least_inverse), fabs(a->most_inverse));
-}
-static inline float steepest(const BeamAxis* a) {
-  return cull_max1(fabs(a->least_inverse), fabs(a->most_inverse));
+// The axes where no ray's |inverse| is more than space_of takes of the main one's.
+static inline int4 are_flat(const Beam* b) { return steepest(b) <= 0x1p50f; }
+
+// Whether all rays have the same main axis, with nothing to spare: there all inverses are less than all on the others.
+static inline bool have_one_axis(const Beam* b) {
+  const float4 flat = flattest(b);
+  const int4 is_main = (steepest(b) < FACET_CULL_MIN(flat.yxxx, flat.zzyy)) & are_flat(b);
+  return !is_none((Mask)(is_main, is_main));
 }
 
-static inline const BeamAxis* axis_of(const Beam* b, uint axis) {
-  return axis == 0u ? &b->x : axis == 1u ? &b->y : &b->z;
+// Where planes across an axis, a lane each, are met first and last.
+static inline Each first_crossing(const Beam* b, int axis, Each face) {
+  const Each f = face - b->centre[axis], offset = (Each)(b->near_offset[axis]);
+  return FACET_CULL_MIN(fma(f, (Each)(b->least_inverse[axis]), offset), fma(f, (Each)(b->most_inverse[axis]), offset));
 }
-
-// Whether space_of takes all rays, and knows their offsets; no where it only just would. The inverse directions are
-// asked, whose bounds are known; none of them is NaN.
-static inline bool are_rays_usable(const Beam* b, uint axis, float extent) {
-  const BeamAxis* main = axis_of(b, axis);
-  const float most = cull_max1(steepest(&b->x), cull_max1(steepest(&b->y), steepest(&b->z)));
-  return flattest(main) >= 0x1p-50f && steepest(main) <= 0x1p50f && extent <= 0x1p50f && extent * most <= 0x1p100f;
-}
-
-// Whether all rays have that main axis.
-static inline bool is_main_axis(const Beam* b, uint axis) {
-  const BeamAxis *first = axis_of(b, axis == 0u ? 2u : 0u), *second = axis_of(b, axis == 1u ? 2u : 1u);
-  return steepest(axis_of(b, axis)) < cull_min1(flattest(first), flattest(second));
-}
-
-static inline Each first_crossing(const BeamAxis* a, Each face) {
-  const Each f = face - a->centre, offset = (Each)(a->near_offset);
-  return FACET_CULL_MIN(fma(f, (Each)(a->least_inverse), offset), fma(f, (Each)(a->most_inverse), offset));
-}
-static inline Each last_crossing(const BeamAxis* a, Each face) {
-  const Each f = face - a->centre, offset = (Each)(a->far_offset);
-  return FACET_CULL_MAX(fma(f, (Each)(a->least_inverse), offset), fma(f, (Each)(a->most_inverse), offset));
+static inline Each last_crossing(const Beam* b, int axis, Each face) {
+  const Each f = face - b->centre[axis], offset = (Each)(b->far_offset[axis]);
+  return FACET_CULL_MAX(fma(f, (Each)(b->least_inverse[axis]), offset), fma(f, (Each)(b->most_inverse[axis]), offset));
 }
 
 // The intervals of eight boxes for all rays at once, given the sides met first and last: where near > far,
 // no ray's own interval (box.h) holds anything.
 static inline void beam_intervals(const Beam* b, Each nx, Each fx, Each ny, Each fy, Each nz, Each fz,
                                   float best, Each* near, Each* far) {
-  const Each x = FACET_CULL_MAX(first_crossing(&b->x, nx), (Each)(b->tmin));
-  const Each y = FACET_CULL_MAX(first_crossing(&b->y, ny), x);
-  *near = FACET_CULL_MAX(first_crossing(&b->z, nz), y);
-  const Each u = FACET_CULL_MIN(last_crossing(&b->x, fx), (Each)(best));
-  const Each v = FACET_CULL_MIN(last_crossing(&b->y, fy), u);
-  *far = FACET_CULL_MIN(last_crossing(&b->z, fz), v);
+  const Each x = FACET_CULL_MAX(first_crossing(b, 0, nx), (Each)(b->tmin));
+  const Each y = FACET_CULL_MAX(first_crossing(b, 1, ny), x);
+  *near = FACET_CULL_MAX(first_crossing(b, 2, nz), y);
+  const Each u = FACET_CULL_MIN(last_crossing(b, 0, fx), (Each)(best));
+  const Each v = FACET_CULL_MIN(last_crossing(b, 1, fy), u);
+  *far = FACET_CULL_MIN(last_crossing(b, 2, fz), v);
 }
 
 #endif

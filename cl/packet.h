@@ -50,7 +50,8 @@ static inline Points moved_to(float3 centre, Points offset, Points inverse) {
   return p;
 }
 
-static inline Beam beam_of(const Rays* rays, const PacketPart* part, float3 centre, float extent) {
+// False as beam_of_bounds.
+static inline bool beam_of(const Rays* rays, const PacketPart* part, float3 centre, Real extent, Beam* b) {
   Points least = rays->inverse, most = least;
   Points near = moved_to(centre, rays->near_offset, least);
   Points far = moved_to(centre, rays->far_offset, least);
@@ -63,12 +64,7 @@ static inline Beam beam_of(const Rays* rays, const PacketPart* part, float3 cent
     far = larger_points(moved_to(centre, r->far_offset, r->inverse), far);
     tmin = smaller_each(part[k].tmin, tmin);
   }
-  Beam b;
-  b.x = beam_axis(centre.x, least.x, most.x, near.x, far.x, extent);
-  b.y = beam_axis(centre.y, least.y, most.y, near.y, far.y, extent);
-  b.z = beam_axis(centre.z, least.z, most.z, near.z, far.z, extent);
-  b.tmin = least_of(tmin);
-  return b;
+  return beam_of_bounds(centre, least, most, near, far, tmin, extent, b);
 }
 
 static inline float best_of(const PacketPart* part) {
@@ -104,18 +100,23 @@ static inline bool can_go_together(const PacketPart* part, float3 reach) {
     most = larger_points(part[k].o, most);
     has_way &= part[k].tmin <= part[k].t;
   }
-  const float3 width = (float3)(most_of(most.x) - least_of(least.x), most_of(most.y) - least_of(least.y),
-                                most_of(most.z) - least_of(least.z));
-  return is_all(has_way) && larger(width.x, larger(width.y, width.z)) <=
-                                FACET_PACKET_WIDTH * larger(reach.x, larger(reach.y, reach.z));
+  // The least, and of the negative ones, too: bounds of six vectors at once.
+  const Each low[8] = {least.x, least.y, least.z, least.z, -most.x, -most.y, -most.z, -most.z};
+  const Each from = bounds_of_lanes(low, false);
+  const float4 width = -(from.lo + from.hi);
+  const Mask is_narrow = (float8)(width, width) <= FACET_PACKET_WIDTH * larger(reach.x, larger(reach.y, reach.z));
+  return is_all(has_way & is_narrow);
 }
 
 // Rays of a packet are told by a bit each.
 #define WHOLE_PACKET 0xffffffffu
 
-// Those whose main axis is the packet's, and by more than rounding.
-static inline uint rays_of_axis(const Rays* rays) {
+// Those whose main axis is the packet's, and by more than rounding. Each ray's inverse is least on its main axis: if
+// theirs is, none is more than the largest on any one axis.
+static inline uint rays_of_axis(const Rays* rays, const Beam* b) {
+  const int4 flat = are_flat(b);
   uint which = 0u;
+  if (is_none((Mask)(flat, flat))) return 0u;
   for (uint k = 0u; k < FACET_PARTS; ++k)
     which |= lanes_of((fabs(rays[k].shear_x) < 1.0f) & (fabs(rays[k].shear_y) < 1.0f)) << FACET_LANES * k;
   return which;
@@ -138,11 +139,10 @@ static inline uint packet_in(const PacketPart* part, const Points* o, const Poin
     offsets += (r->near_offset.x + r->near_offset.y) + r->near_offset.z;
   }
   // A sum is NaN or infinite where a term is, and an offset where o, d or their product is, but for an infinite
-  // d: its inverse is 0, which are_rays_usable finds.
+  // d: its inverse is 0, which beam_of finds.
   if (!is_all(fabs(offsets) < INFINITY)) return 0u;
-  space->beam = beam_of(space->rays, part, centre, most_of(extent));
-  if (!are_rays_usable(&space->beam, axis, most_of(extent))) return 0u;
-  return is_main_axis(&space->beam, axis) ? WHOLE_PACKET : rays_of_axis(space->rays);
+  if (!beam_of(space->rays, part, centre, extent, &space->beam)) return 0u;
+  return have_one_axis(&space->beam) ? WHOLE_PACKET : rays_of_axis(space->rays, &space->beam);
 }
 
 // Rays that look for nothing.

@@ -18,12 +18,12 @@
 // The lanes whose rays meet a node's child before their best hits, as box.h has it.
 static inline uint rays_that_meet(const PacketPart* p, const Rays* r, const Beam* b,
                                   __global const float* faces) {
-  const Real nx = fma(in_all(faces[b->x.side]), r->inverse.x, r->near_offset.x);
-  const Real fx = fma(in_all(faces[FACET_SIDE - b->x.side]), r->inverse.x, r->far_offset.x);
-  const Real ny = fma(in_all(faces[2u * FACET_SIDE + b->y.side]), r->inverse.y, r->near_offset.y);
-  const Real fy = fma(in_all(faces[3u * FACET_SIDE - b->y.side]), r->inverse.y, r->far_offset.y);
-  const Real nz = fma(in_all(faces[4u * FACET_SIDE + b->z.side]), r->inverse.z, r->near_offset.z);
-  const Real fz = fma(in_all(faces[5u * FACET_SIDE - b->z.side]), r->inverse.z, r->far_offset.z);
+  const Real nx = fma(in_all(faces[b->side[0]]), r->inverse.x, r->near_offset.x);
+  const Real fx = fma(in_all(faces[FACET_SIDE - b->side[0]]), r->inverse.x, r->far_offset.x);
+  const Real ny = fma(in_all(faces[2u * FACET_SIDE + b->side[1]]), r->inverse.y, r->near_offset.y);
+  const Real fy = fma(in_all(faces[3u * FACET_SIDE - b->side[1]]), r->inverse.y, r->far_offset.y);
+  const Real nz = fma(in_all(faces[4u * FACET_SIDE + b->side[2]]), r->inverse.z, r->near_offset.z);
+  const Real fz = fma(in_all(faces[5u * FACET_SIDE - b->side[2]]), r->inverse.z, r->far_offset.z);
   const Real near = larger_each(nz, larger_each(ny, larger_each(nx, p->tmin)));
   const Real far = smaller_each(fz, smaller_each(fy, smaller_each(fx, p->t)));
   return lanes_of(near <= far);
@@ -32,9 +32,9 @@ static inline uint rays_that_meet(const PacketPart* p, const Rays* r, const Beam
 // The children of a node that some ray may meet.
 static inline uint children_in_beam(const Beam* b, __global const float* faces, float best, Each* near) {
   Each nx, fx, ny, fy, nz, fz, far;
-  read_sides(faces, b->x.side, &nx, &fx);
-  read_sides(faces + 2u * FACET_SIDE, b->y.side, &ny, &fy);
-  read_sides(faces + 4u * FACET_SIDE, b->z.side, &nz, &fz);
+  read_sides(faces, b->side[0], &nx, &fx);
+  read_sides(faces + 2u * FACET_SIDE, b->side[1], &ny, &fy);
+  read_sides(faces + 4u * FACET_SIDE, b->side[2], &nz, &fz);
   beam_intervals(b, nx, fx, ny, fy, nz, fz, best, near, &far);
   return lanes_of(*near <= far);
 }
@@ -43,7 +43,7 @@ static inline uint children_in_beam(const Beam* b, __global const float* faces, 
 static inline uint triangles_in_beam(const Beam* b, Triangles block, float best) {
   Points lo, hi;
   bounds_of(block, &lo, &hi);
-  const bool x = b->x.side == 0u, y = b->y.side == 0u, z = b->z.side == 0u;
+  const bool x = b->side[0] == 0u, y = b->side[1] == 0u, z = b->side[2] == 0u;
   Each near, far;
   beam_intervals(b, x ? lo.x : hi.x, x ? hi.x : lo.x, y ? lo.y : hi.y, y ? hi.y : lo.y, z ? lo.z : hi.z,
                  z ? hi.z : lo.z, best, &near, &far);
@@ -108,7 +108,7 @@ static inline void cross_one(const Scene* s, PacketPart* p, const TriangleHits* 
 static inline void meet_one(const Scene* s, GEOMETRY positions, PacketPart* p, const Rays* r, Intervals outer,
                             Triangles one, uint place, uint slot, uint mode) {
   TriangleHits hits;
-  Mask met = hit_triangles(r, positions, one, outer, p->tmin, p->t, false, mode == FACET_CROSSINGS, &hits);
+  Mask met = hit_triangles(r, positions, one, outer, p->tmin, p->t, true, mode == FACET_CROSSINGS, &hits);
   if (is_none(met)) return;
   if (mode == FACET_ANY) return answer(p, met);
 #ifndef FACET_NO_TRANSPARENCY

@@ -2,7 +2,7 @@
 #ifndef FACET_TRACE_PACKET_H
 #define FACET_TRACE_PACKET_H
 
-#include "search_packet.h"
+#include "together.h"
 #include "trace.h"
 
 // The shares of the hits that rays have met alone.
@@ -58,20 +58,56 @@ static inline void read_part(__global const Ray* rays, PacketPart* p) {
   begin_part(p, o, d, a[3], a[7]);
 }
 
-// Those of FACET_PACKET rays that go together; gives the others.
+// In place of rays that are not in `some` its first stands again.
+APART void stand_in(__global const Ray* rays, uint some, PacketPart* part) {
+  const uint lead = first_lane(some);
+  __global const Ray* first = rays + lead;
+  const float tmin = stored_lane(&part[lead / FACET_LANES].tmin, lead % FACET_LANES);
+  for (uint others = ~some; others != 0u; others = without_first(others)) {
+    const uint i = first_lane(others), lane = i % FACET_LANES;
+    PacketPart* p = &part[i / FACET_LANES];
+    Points *o = &p->o, *d = &p->d;
+    ((float*)&o->x)[lane] = first->origin[0], ((float*)&d->x)[lane] = first->direction[0];
+    ((float*)&o->y)[lane] = first->origin[1], ((float*)&d->y)[lane] = first->direction[1];
+    ((float*)&o->z)[lane] = first->origin[2], ((float*)&d->z)[lane] = first->direction[2];
+    ((float*)&p->tmin)[lane] = tmin;
+    ((float*)&p->t)[lane] = first->tmax;
+  }
+}
+
+APART void write_some(const Scene* s, GEOMETRY positions, const PacketSpace* world, const PacketPart* part, uint some,
+                      uint mode, __global Hit* hits, __global uint* hit_instances) {
+  for (; some != 0u; some = without_first(some)) {
+    const uint i = first_lane(some);
+    Query q = query_in_lane(s, positions, world, part, i, mode);
+    settle(&q, mode);
+    write_hit(hits, hit_instances, i, &q);
+  }
+}
+
+// Those of FACET_PACKET rays that go together; then those that only have another main axis do. Gives the others.
 static inline uint trace_packet(const Scene* s, GEOMETRY positions, __global const Ray* rays, uint mode,
                                 __global Hit* hits, __global uint* hit_instances) {
   PacketPart part[FACET_PARTS];
   PacketSpace world;
-  if (s->triangle_count == 0u) return WHOLE_PACKET;
-  for (uint k = 0u; k < FACET_PARTS; ++k) read_part(rays + FACET_LANES * k, &part[k]);
-  const uint together = packet_of(part, s->reach, &world);
-  if (together == 0u) return WHOLE_PACKET;
-  search_packet(s, positions, &world, mode, part);
-  for (uint k = 0u; k < FACET_PARTS; ++k)
-    write_part(s, positions, &part[k], &world.rays[k], mode, hits + FACET_LANES * k,
-               hit_instances + FACET_LANES * k);
-  return ~together;
+  uint some = WHOLE_PACKET;
+  if (s->triangle_count == 0u) return some;
+  for (;;) {
+    for (uint k = 0u; k < FACET_PARTS; ++k) read_part(rays + FACET_LANES * k, &part[k]);
+    if (some != WHOLE_PACKET) stand_in(rays, some, part);
+    const uint together = packet_of(part, s->reach, &world) & some;
+    if (together == 0u) return some;
+    if (some != WHOLE_PACKET) leave_out(part, ~some);
+    search_packet(s, positions, &world, mode, part);
+    if (some != WHOLE_PACKET)
+      write_some(s, positions, &world, part, together, mode, hits, hit_instances);
+    else
+      for (uint k = 0u; k < FACET_PARTS; ++k)
+        write_part(s, positions, &part[k], &world.rays[k], mode, hits + FACET_LANES * k,
+                   hit_instances + FACET_LANES * k);
+    some &= ~together;
+    if (popcount(some) < FEW_ALIKE) return some;
+  }
 }
 
 APART void trace_alone(const Scene* s, GEOMETRY positions, __global const Ray* rays, uint which, uint mode,

@@ -99,7 +99,7 @@ static inline Mask hold_to_boxes(const Rays* r, Triangles p, Intervals outer, Re
 // and its quotient by 6u, 1 / d_z and its product by 2u). The slabs are off by 4u E: together 22u E, on
 // any axis, whatever the angle, for an error of t moves P within the triangle. The pad is 24u E.
 // Nothing overflows: x and y are below 2^62, edge functions below 2^125, z at most 2. Edge
-// functions have lost no more than 2^-147 to underflow: with |det| >= 2^-120 that is below u E / 2, and
+// functions have lost no more than 2^-147 to underflow: with |det| >= 2^-100 that is below u E / 2, and
 // with |top| >= 2^-100 that of its products is below u |t|.
 INLINED Mask hit_triangles(const Rays* r, GEOMETRY positions, Triangles p, Intervals outer, Real tmin, Real tmax,
                            bool many, bool count, TriangleHits* hits) {
@@ -115,8 +115,8 @@ INLINED Mask hit_triangles(const Rays* r, GEOMETRY positions, Triangles p, Inter
   if (is_none(met)) return met;
   const Real top = fma(w, c.z, fma(v, b.z, u * a.z));
   Real t = top / det * r->t_of_unit;
-  // |top| >= 2^-100 and |det| >= 2^-120, so that it is not 0. Without instances `outer` holds everything.
-  Mask is_sure = smaller_each(fabs(top), fabs(det) * 0x1p20f) >= 0x1p-100f;
+  // |top| >= 2^-100 and |det| >= 2^-100, so that it is not 0. Without instances `outer` holds everything.
+  Mask is_sure = smaller_each(fabs(top), fabs(det)) >= 0x1p-100f;
 #ifndef FACET_NO_INSTANCES
   is_sure &= (t >= outer.near) & (t <= outer.far);
 #endif

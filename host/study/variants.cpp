@@ -19,15 +19,16 @@ kernel_edits unordered() {
 kernel_edits unheld() { return {{"triangle.h", "if (!is_none(is_held))", "if (false)"}}; }
 
 kernel_edits unchecked() {
-  return {
-      {"space.h", "largest >= 8.673617379884035e-19f &&", "true ||"},
-      {"box.h", "is_known = fabs(c) < INFINITY;", "is_known = (int3)(-1);"},
-      {"packet.h", "return is_all(has_way) && ", "return "},
-      {"stream.h", "which & lanes_of(s.usable & (tmin <= tmax))", "which"},
-      {"packet.h", "if (!is_all(fabs(offsets) < INFINITY)) return 0u;", ""},
-      {"packet.h", "if (!are_rays_usable(&space->beam, axis, most_of(extent))) return 0u;", ""},
-      {"packet.h", "is_main_axis(&space->beam, axis) ? WHOLE_PACKET : rays_of_axis(space->rays)",
-       "WHOLE_PACKET"}};
+  return {{"space.h", "largest >= 8.673617379884035e-19f &&", "true ||"},
+          {"box.h", "is_known = fabs(c) < INFINITY;", "is_known = (int3)(-1);"},
+          {"packet.h", "is_all(has_way & is_narrow)", "is_all(is_narrow)"},
+          {"stream.h", "which & lanes_of(s.usable & (tmin <= tmax))", "which"},
+          {"packet.h", "if (!is_all(fabs(offsets) < INFINITY)) return 0u;", ""},
+          {"packet.h", "if (!beam_of(space->rays, part, centre, extent, &space->beam)) return 0u;",
+           "beam_of(space->rays, part, centre, extent, &space->beam);"},
+          {"packet.h",
+           "have_one_axis(&space->beam) ? WHOLE_PACKET : rays_of_axis(space->rays, &space->beam)",
+           "WHOLE_PACKET"}};
 }
 
 }  // namespace
