@@ -85,6 +85,15 @@ APART void write_some(const Scene* s, GEOMETRY positions, const PacketSpace* wor
   }
 }
 
+// Asks for the rays of the packet after the next: memory would not come in time for what walks over many.
+static inline void fetch_rays(__global const Ray* rays) {
+  __global const Ray* next = rays + 2u * FACET_PACKET;
+  fetch_lines(next, 256u);
+  fetch_lines(next + 8, 256u);
+  fetch_lines(next + 16, 256u);
+  fetch_lines(next + 24, 256u);
+}
+
 // Those of FACET_PACKET rays that go together; then those that only have another main axis do. Gives the others.
 static inline uint trace_packet(const Scene* s, GEOMETRY positions, __global const Ray* rays, uint mode,
                                 __global Hit* hits, __global uint* hit_instances) {
@@ -92,6 +101,7 @@ static inline uint trace_packet(const Scene* s, GEOMETRY positions, __global con
   PacketSpace world;
   uint some = WHOLE_PACKET;
   if (s->triangle_count == 0u) return some;
+  fetch_rays(rays);
   for (;;) {
     for (uint k = 0u; k < FACET_PARTS; ++k) read_part(rays + FACET_LANES * k, &part[k]);
     if (some != WHOLE_PACKET) stand_in(rays, some, part);

@@ -2,20 +2,26 @@
 #ifndef FACET_TRANSPOSE_H
 #define FACET_TRANSPOSE_H
 
+// Of four vectors of two times four: columns for rows in each half.
+static inline void transpose_halves(float8* a, float8* b, float8* c, float8* d) {
+  const float8 p = (float8)(a->s0, b->s0, a->s1, b->s1, a->s4, b->s4, a->s5, b->s5);
+  const float8 q = (float8)(a->s2, b->s2, a->s3, b->s3, a->s6, b->s6, a->s7, b->s7);
+  const float8 r = (float8)(c->s0, d->s0, c->s1, d->s1, c->s4, d->s4, c->s5, d->s5);
+  const float8 s = (float8)(c->s2, d->s2, c->s3, d->s3, c->s6, d->s6, c->s7, d->s7);
+  *a = (float8)(p.s01, r.s01, p.s45, r.s45);
+  *b = (float8)(p.s23, r.s23, p.s67, r.s67);
+  *c = (float8)(q.s01, s.s01, q.s45, s.s45);
+  *d = (float8)(q.s23, s.s23, q.s67, s.s67);
+}
+
 // Eight rows of eight, columns for rows.
 static inline void transpose(float8 a[8]) {
-  const float8 b0 = (float8)(a[0].even, a[1].even), b4 = (float8)(a[0].odd, a[1].odd);
-  const float8 b1 = (float8)(a[2].even, a[3].even), b5 = (float8)(a[2].odd, a[3].odd);
-  const float8 b2 = (float8)(a[4].even, a[5].even), b6 = (float8)(a[4].odd, a[5].odd);
-  const float8 b3 = (float8)(a[6].even, a[7].even), b7 = (float8)(a[6].odd, a[7].odd);
-  const float8 c0 = (float8)(b0.even, b1.even), c4 = (float8)(b0.odd, b1.odd);
-  const float8 c1 = (float8)(b2.even, b3.even), c5 = (float8)(b2.odd, b3.odd);
-  const float8 c2 = (float8)(b4.even, b5.even), c6 = (float8)(b4.odd, b5.odd);
-  const float8 c3 = (float8)(b6.even, b7.even), c7 = (float8)(b6.odd, b7.odd);
-  a[0] = (float8)(c0.even, c1.even), a[4] = (float8)(c0.odd, c1.odd);
-  a[1] = (float8)(c2.even, c3.even), a[5] = (float8)(c2.odd, c3.odd);
-  a[2] = (float8)(c4.even, c5.even), a[6] = (float8)(c4.odd, c5.odd);
-  a[3] = (float8)(c6.even, c7.even), a[7] = (float8)(c6.odd, c7.odd);
+  float8 b[8] = {(float8)(a[0].lo, a[4].lo), (float8)(a[1].lo, a[5].lo), (float8)(a[2].lo, a[6].lo),
+                 (float8)(a[3].lo, a[7].lo), (float8)(a[0].hi, a[4].hi), (float8)(a[1].hi, a[5].hi),
+                 (float8)(a[2].hi, a[6].hi), (float8)(a[3].hi, a[7].hi)};
+  transpose_halves(&b[0], &b[1], &b[2], &b[3]);
+  transpose_halves(&b[4], &b[5], &b[6], &b[7]);
+  for (int i = 0; i < 8; ++i) a[i] = b[i];
 }
 
 #endif
