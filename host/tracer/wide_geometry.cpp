@@ -106,6 +106,11 @@ class wide_builder {
          {&packed_.triangle_materials[m.first_triangle], m.triangle_count},
          {},
          {0, blocks_of(m.triangle_count), 0, runtime::buffer<FoldPlan>(1)}});
+    // Memory moves when it is first asked for: not within the build.
+    queue_.submit([&](runtime::handler& h) {
+      const runtime::accessor corners{meshes_.back().corners, h, runtime::read_only};
+      const runtime::accessor materials{meshes_.back().materials, h, runtime::read_only};
+    });
   }
 
   void plan(planned_mesh& m, std::span<const given_tree> given) {
