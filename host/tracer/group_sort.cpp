@@ -37,7 +37,7 @@ std::string options_of(const tuning& t, bool looks_back) {
   return o + register_cap(t.sort.registers);
 }
 
-/// Words of local memory that `scatter` needs (LOCAL_WORDS in cl/radix_sort.cl).
+/// Words of local memory that `scatter` needs (LOCAL_WORDS in cl/radix_tile.h).
 template <class Key>
 std::uint32_t local_words(const sort_tuning& t) {
   const std::uint32_t group = group_of<Key>(t), tile = group * items_of<Key>(t);
