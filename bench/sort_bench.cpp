@@ -27,7 +27,7 @@ struct arguments {
   std::vector<double> counts{1e3, 1e4, 1e5, 1e6, 1e7, 1 << 24};
   std::vector<unsigned> keys{32, 64};
   std::string device = "0", json, face = "auto", ranking = "auto", look_back = "auto",
-              beside = "auto", flags;
+              beside = "auto", launches = "auto", flags;
   unsigned bits = 0;
   std::uint32_t group = 0, items = 0, window = 0, registers = 0, copies = 0, histogram_groups = 0,
                 tiles = 0, few = 0, bucket_mean = 0, bucket_room = 0, bucket_most = 0;
@@ -60,6 +60,8 @@ tracer::tuning tuned(const runtime::device& d, const arguments& o) {
   if (o.ranking != "auto") s.ranking = rankings.at(o.ranking);
   s.look_back = look_backs.at(o.look_back);
   if (o.beside != "auto") s.values_beside = o.beside == "on";
+  if (o.launches != "auto")
+    s.whole_most_32 = s.whole_most_64 = o.launches == "one" ? tracer::sort_tuning::any_count : 0;
   const auto set = [](std::uint32_t& to, std::uint32_t value) {
     if (value != 0) to = value;
   };
@@ -84,6 +86,8 @@ json settings_of(const tracer::sort_tuning& s, const arguments& o) {
   if (s.face == sort_face::group)
     j.update({{"ranking", word_of(rankings, s.ranking)},
               {"look_back", word_of(look_backs, s.look_back)},
+              {"whole_most_32", s.whole_most_32},
+              {"whole_most_64", s.whole_most_64},
               {"group_32", s.group_32},
               {"group_64", s.group_64},
               {"items_32", s.items_32},
@@ -238,6 +242,9 @@ void add_sort_row(CLI::App& app) {
       ->group(how);
   row->add_option("--beside", o->beside, "values beside keys in local memory")
       ->check(CLI::IsMember({"auto", "on", "off"}))
+      ->group(how);
+  row->add_option("--launches", o->launches, "of a sort that looks back")
+      ->check(CLI::IsMember({"auto", "one", "many"}))
       ->group(how);
   row->add_option("--registers", o->registers, "of a work-item, at most (NVIDIA)")
       ->check(CLI::Range(0, 255))

@@ -11,6 +11,22 @@
 #include "radix_digit.h"
 #include "warp.h"
 
+// A work-item's ranks, two to a word: registers are what limits how many groups run at once.
+#define RANK_PAIRS ((ITEMS + 1) / 2)
+#if TILE > 65536
+#error "a tile has at most 65536 keys"
+#endif
+static inline uint rank_of(const uint* ranks, uint i) {
+  return i % 2u == 0u ? ranks[i / 2u] & 0xffffu : ranks[i / 2u] >> 16;
+}
+// Item by item, in order.
+static inline void add_rank(uint* ranks, uint i, uint rank) {
+  if (i % 2u == 0u)
+    ranks[i / 2u] = rank;
+  else
+    ranks[i / 2u] |= rank << 16;
+}
+
 #ifdef FACET_PTX
 
 #define WARPS (GROUP / 32)
@@ -57,7 +73,7 @@ static inline uint count_tile(uint lid, const KEY* key, uint shift, uint mask,
 // `first`: the rank of the tile's first key whose digit is the work-item's local id. After a barrier
 // `counts` and `sums` are free.
 static inline void rank_tile(uint lid, const KEY* key, uint shift, uint mask, uint first,
-                             uint* rank, __local uint* counts, __local ulong* sums) {
+                             uint* ranks, __local uint* counts, __local ulong* sums) {
   if (lid < DIGITS) {
     UNROLL
     for (uint w = 0u; w < WARPS; ++w) {
@@ -73,10 +89,10 @@ static inline void rank_tile(uint lid, const KEY* key, uint shift, uint mask, ui
   for (uint i = 0u; i < ITEMS; ++i) {
     const uint digit = digit_of(key[i], shift, mask);
     const uint equal = warp_equal(digit);
-    const uint leader = 31u - clz(equal);
+    const uint leader = highest_lane(equal);
     uint from = 0u;
     if (warp_lane(lid) == leader) from = atomic_add(&next[digit], popcount(equal));
-    rank[i] = warp_from(from, leader) + popcount(equal & below);
+    add_rank(ranks, i, warp_from(from, leader) + popcount(equal & below));
   }
 }
 
@@ -149,7 +165,8 @@ static inline void hand_over(uint lid, uint* held, __local uint* pool) {
 }
 
 static inline void rank_tile(uint lid, const KEY* key, uint shift, uint mask, uint first,
-                             uint* rank, __local uint* pool, __local ulong* sums) {
+                             uint* ranks, __local uint* pool, __local ulong* sums) {
+  uint rank[ITEMS];
   uint held[ITEMS];  // a digit, and above it where its key is in the tile
   barrier(CLK_LOCAL_MEM_FENCE);
   for (uint i = 0u; i < ITEMS; ++i)
@@ -161,7 +178,7 @@ static inline void rank_tile(uint lid, const KEY* key, uint shift, uint mask, ui
   rank_by_4_bits(lid, held, 4u, rank, pool, sums);
   for (uint i = 0u; i < ITEMS; ++i) pool[held[i] >> DIGIT_BITS] = rank[i];
   barrier(CLK_LOCAL_MEM_FENCE);
-  for (uint i = 0u; i < ITEMS; ++i) rank[i] = pool[item_place(lid, i)];
+  for (uint i = 0u; i < ITEMS; ++i) add_rank(ranks, i, pool[item_place(lid, i)]);
 }
 
 #endif

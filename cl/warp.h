@@ -20,6 +20,13 @@
 static inline uint warp_lane(uint lid) { return lid % WARP_SIZE; }
 static inline uint lanes_below(uint lane) { return (1u << lane) - 1u; }
 
+// Of the lanes that are set, at least one.
+static inline uint highest_lane(uint lanes) {
+  uint lane;
+  __asm__("bfind.u32 %0, %1;" : "=r"(lane) : "r"(lanes));
+  return lane;
+}
+
 // All work-items of the warp call these together, but for active_lanes.
 
 // Bit l is set where lane l gives a value that is not 0.

@@ -22,22 +22,27 @@ class group_sort : public sort_way<Key> {
   static std::uint32_t tile_size(const sort_tuning& t);
 
  private:
+  /// Memory that groups meet at, clean.
+  void prepare_words(std::uint32_t tiles, std::vector<step>& steps);
+  void sort_in_one_launch(const sort_request<Key>& r, std::uint32_t tiles,
+                          std::vector<step>& steps);
   void sort_looking_back(const sort_request<Key>& r, std::uint32_t tiles, std::vector<step>& steps);
   void sort_counting(const sort_request<Key>& r, std::uint32_t tiles, std::vector<step>& steps);
 
   runtime::queue queue_;
   sort_tuning tuning_;
   bool looks_back_;
+  std::uint32_t whole_most_;
   runtime::program program_;
-  runtime::kernel scatter_;
+  std::optional<runtime::kernel> whole_, scatter_;
 
   runtime::buffer<Key> keys_{0};
   runtime::buffer<std::uint32_t> values_{0};
 
-  // Looking back. The bins are 0 between sorts, unless one of them was cut short.
+  // Looking back. Bins and state are 0 between sorts, unless one of them was cut short.
   std::optional<runtime::kernel> histogram_;
   bool is_clean_ = false;
-  runtime::buffer<std::uint32_t> bins_, counters_;
+  runtime::buffer<std::uint32_t> bins_, counters_, state_;
   std::array<runtime::buffer<std::uint32_t>, 2> words_{runtime::buffer<std::uint32_t>(0),
                                                        runtime::buffer<std::uint32_t>(0)};
   // Counting first.

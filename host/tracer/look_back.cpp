@@ -11,9 +11,9 @@ namespace {
 
 constexpr std::uint32_t columns = 64;
 
-/// More than a device runs at once, by far.
+/// More than a device runs at once: twice the 32 that NVIDIA's multiprocessors hold at most.
 std::uint32_t groups_for(const runtime::device& d) {
-  return std::clamp(64 * std::uint32_t(d.max_compute_units()), 256u, 4096u);
+  return std::clamp(64 * std::uint32_t(d.max_compute_units()), 256u, 32768u);
 }
 
 std::uint32_t own_count(std::uint32_t group, std::uint32_t column) {

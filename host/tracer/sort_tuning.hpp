@@ -25,6 +25,9 @@ struct sort_tuning {
   // Of work-groups.
   sort_ranking ranking = sort_ranking::portable;
   look_back_use look_back = look_back_use::if_proven;
+  static constexpr std::uint32_t any_count = ~0u;
+  std::uint32_t whole_most_32 = 0,
+                whole_most_64 = 0;  ///< keys that are sorted in one launch, at most
   std::uint32_t group_32 = 256,
                 group_64 = 256;  ///< work-items, at least 256, for keys of 32 and 64 bits
   std::uint32_t items_32 = 8, items_64 = 6;  ///< keys a work-item

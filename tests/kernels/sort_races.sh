@@ -17,8 +17,9 @@ sort_with() {
 }
 sort_with --face group --look-back on --count 600 --items 1 --bits 12
 sort_with --face group --look-back on --count 600 --items 2 --bits 9 --beside on --order --copies 2 --keys 32
+sort_with --face group --look-back on --launches one --count 600 --items 1 --bits 12
 sort_with --face group --look-back off --count 600 --items 2 --bits 9 --keys 32
 # Optimised, these kernels have intrinsics of LLVM that Oclgrind lacks.
 sort_with --face serial --count 4200 --bits 23 --keys 32 --flags=-cl-opt-disable
 sort_with --face serial --count 4200 --few 64 --bucket-mean 256 --keys 64 --flags=-cl-opt-disable
-echo "5 ways without a race"
+echo "6 ways without a race"

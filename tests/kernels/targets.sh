@@ -54,6 +54,8 @@ for target in spir64-unknown-unknown nvptx64-nvidia-nvcl amdgcn-amd-amdhsa; do
   echo "$target $as serial_levels.cl"
   for key in uint ulong; do
     for kernel in radix_counts.cl radix_sort.cl "radix_sort.cl -DFACET_LOOK_BACK" \
+        "radix_sort.cl -DFACET_LOOK_BACK -DFACET_ONE_LAUNCH" \
+        "radix_sort.cl -DFACET_LOOK_BACK -DFACET_ONE_LAUNCH -DFACET_MANY_LAUNCHES" \
         "radix_sort.cl -DFACET_LOOK_BACK -DFACET_SORT_BESIDE -DGROUP=512 -DITEMS=3 -DCOPIES=2"; do
       echo "$target code $kernel -DKEY=$key"
     done
@@ -81,7 +83,8 @@ done >> "$jobs"
 # By warps, where PTX can be written: instructions of sm_70.
 for ranking in "" " -DFACET_SORT_MATCH"; do
   for key in uint ulong; do
-    for more in "" " -DFACET_LOOK_BACK" " -DFACET_LOOK_BACK -DFACET_SORT_BESIDE"; do
+    for more in "" " -DFACET_LOOK_BACK" " -DFACET_LOOK_BACK -DFACET_SORT_BESIDE" \
+        " -DFACET_LOOK_BACK -DFACET_ONE_LAUNCH"; do
       echo "nvptx64-nvidia-nvcl code radix_sort.cl -DFACET_PTX -DGROUP=384 -DITEMS=10 -DKEY=$key$ranking$more"
     done
   done

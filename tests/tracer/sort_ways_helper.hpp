@@ -42,7 +42,7 @@ inline std::vector<sort_way> sort_ways() {
   group.sort.face = sort_face::group;
   const auto add = [&](const std::string& name, look_back_use use, sort_ranking ranking,
                        std::uint32_t size, std::uint32_t items_32, std::uint32_t items_64,
-                       bool beside) {
+                       bool beside, std::uint32_t whole_most = 0) {
     sort_tuning& s = group.sort;
     s.look_back = use;
     s.ranking = ranking;
@@ -52,16 +52,23 @@ inline std::vector<sort_way> sort_ways() {
     s.values_beside = beside;
     s.histogram_copies = beside ? 2 : 1;
     s.histogram_groups = 5;
+    s.whole_most_32 = s.whole_most_64 = whole_most;
     ways.push_back({name, group, size * items_32, size * items_64});
   };
   const auto portable = sort_ranking::portable;
   add("looking back", look_back_use::always, portable, 256, 4, 3, false);
   add("looking back, values beside", look_back_use::always, portable, 512, 1, 2, true);
+  constexpr std::uint32_t any = sort_tuning::any_count;
+  add("one launch", look_back_use::always, portable, 256, 4, 3, false, any);
+  add("one launch, values beside", look_back_use::always, portable, 256, 1, 2, true, any);
+  add("one launch of few keys", look_back_use::always, portable, 256, 4, 3, false, 5000);
   add("counting", look_back_use::never, portable, 256, 4, 3, false);
   if (device().nvidia_compute_capability() >= 70)
     for (const sort_ranking by : {sort_ranking::ballot, sort_ranking::match}) {
       const std::string name = by == sort_ranking::ballot ? "ballot" : "match";
       add(name, look_back_use::always, by, 384, 20, 12, false);
+      add(name + ", one launch", look_back_use::always, by, 512, 15, 11, false, any);
+      add(name + ", one launch, values beside", look_back_use::always, by, 256, 5, 4, true, any);
       add(name + ", values beside", look_back_use::always, by, 256, 5, 4, true);
       add(name + ", counting", look_back_use::never, by, 256, 4, 3, false);
     }
