@@ -126,7 +126,7 @@ static inline bool meet_triangles(const Scene* s, GEOMETRY positions, const Spac
   const Rays ray = in_all_lanes(space);
   const Intervals each = {in_all(outer.near), in_all(outer.far)};
   uint left = lanes_where(hit_triangles(&ray, positions, triangles_from(positions, first), each, in_all(tmin),
-                                        in_all(q->t), FACET_LANES > 1u, mode == FACET_CROSSINGS, &hits));
+                                        in_all(q->t), mode == FACET_CROSSINGS, &hits));
   for (; left != 0u; left = without_first(left)) {
     const uint lane = first_lane(left);
     const bool is_crossing = mode == FACET_CROSSINGS;

@@ -97,7 +97,7 @@ static inline void meet_block_alone(const Scene* s, GEOMETRY positions, uint blo
   r.is_turned = (ray->axis & FACET_IS_TURNED) != 0u;
   TriangleHits hits;
   uint left = lanes_of(hit_triangles(&r, positions, triangles_from(positions, block), outer, in_all(ray->tmin),
-                                     in_all(ray->t), true, false, &hits));
+                                     in_all(ray->t), false, &hits));
   if (left != 0u && mode == FACET_ANY) {
     ray->t = -INFINITY;
     ray->slot = 0u;

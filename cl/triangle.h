@@ -87,9 +87,9 @@ static inline Mask hold_to_boxes(const Rays* r, Triangles p, Intervals outer, Re
   return near <= far;
 }
 
-// The lanes whose rays meet their triangles with t in tmin..tmax; the edges belong to the triangle. Literals:
-// `many`, whether few of the lanes will; `count`, whether is_front and is_counted are asked for. t lies in the
-// interval of the triangle's own box and in `outer`, that of its instance's box in the world.
+// The lanes whose rays meet their triangles with t in tmin..tmax; the edges belong to the triangle. A literal:
+// `count`, whether is_front and is_counted are asked for. t lies in the interval of the triangle's own box and in
+// `outer`, that of its instance's box in the world.
 //
 // It does so by itself, unless an underflow or an instance's maps come between. With u, v, w as they
 // come out, each within 2u of the edge function of the sheared corners, b = u / (u+v+w) and so on are
@@ -102,10 +102,10 @@ static inline Mask hold_to_boxes(const Rays* r, Triangles p, Intervals outer, Re
 // functions have lost no more than 2^-147 to underflow: with |det| >= 2^-100 that is below u E / 2, and
 // with |top| >= 2^-100 that of its products is below u |t|.
 INLINED Mask hit_triangles(const Rays* r, GEOMETRY positions, Triangles p, Intervals outer, Real tmin, Real tmax,
-                           bool many, bool count, TriangleHits* hits) {
+                           bool count, TriangleHits* hits) {
   const Points a = sheared(r, p, 0), b = sheared(r, p, 1), c = sheared(r, p, 2);
-  // Most of many triangles are passed by: these need no more than the signs.
-  if (many) {
+  // Most of many lanes' triangles are passed by: these need no more than the signs.
+  if (FACET_LANES > 1u) {
     const Mask near_by = is_within(rough_edge(c, b), rough_edge(a, c), rough_edge(b, a));
     if (is_none(near_by)) return near_by;
   }

@@ -28,7 +28,7 @@ static inline Points first_corner(Triangles t, const Rays* r, Points* e1, Points
 }
 
 INLINED Mask hit_triangles(const Rays* r, GEOMETRY positions, Triangles t, Intervals outer, Real tmin, Real tmax,
-                           bool many, bool count, TriangleHits* hits) {
+                           bool count, TriangleHits* hits) {
   Points e1, e2;
   const Points p0 = first_corner(t, r, &e1, &e2), d = r->direction;
   const Points p = cross_each(d, e2), o = less(r->o, p0);

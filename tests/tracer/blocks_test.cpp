@@ -111,7 +111,7 @@ TEST_CASE(
       "    const Rays r = in_all_lanes(&s);\n"
       "    met[i] = 256u | lanes_where(hit_triangles(&r, block, triangles_from(block, 0u), outer, "
       "in_all(0.0f),\n"
-      "                                              in_all(INFINITY), true, false, &hits));\n"
+      "                                              in_all(INFINITY), false, &hits));\n"
       "  }\n"
       "}\n";
   runtime::queue& q = test::queue();
