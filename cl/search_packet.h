@@ -107,6 +107,7 @@ static inline void cross_one(const Scene* s, PacketPart* p, const TriangleHits* 
 
 static inline void meet_one(const Scene* s, GEOMETRY positions, PacketPart* p, const Rays* r, Intervals outer,
                             Triangles one, uint place, uint slot, uint mode) {
+  if (is_none(may_be_within(r, one))) return;
   TriangleHits hits;
   Mask met = hit_triangles(r, positions, one, outer, p->tmin, p->t, mode == FACET_CROSSINGS, &hits);
   if (is_none(met)) return;

@@ -9,11 +9,13 @@
 // As space_of (space.h) of a ray in each lane, for those that it takes and whose offsets are known, which `usable`
 // says.
 typedef struct {
-  Points inverse, near_offset, far_offset, o;  // o: the main axis in z's place
+  Points inverse, near_offset, far_offset, o;  // o: in units of 2^e, the main axis in z's place
   Real shear_x, shear_y, unit, t_of_unit;
-  uint8 axis;  // layout: StreamRay
+  uint8 order;  // layout: StreamRay
   Mask usable;
 } Spaces;
+
+static inline uint8 bytes_of(Order o) { return (uint8)(o.x | o.y << 8 | o.z << 16); }
 
 // Whether each component is one that space_of takes.
 static inline Mask are_in_range(Points a) {
@@ -34,9 +36,9 @@ static inline Spaces spaces_of(Points o, Points d, float3 reach) {
   slabs_in_lanes(o, d, reach, fabs(main), &s.inverse, &s.near_offset, &s.far_offset, &extent);
   const uint8 exponent = exponent_of(extent);
   s.unit = as_float8(0x7f000000u - exponent);
+  s.o = scaled_points(s.unit, s.o);
   s.t_of_unit = (on_z ? s.inverse.z : on_y ? s.inverse.y : s.inverse.x) * as_float8(exponent);
-  const Mask is_turned = (main < 0.0f) ^ !on_z;
-  s.axis = (on_z ? (uint8)(2u) : on_y ? (uint8)(1u) : (uint8)(0u)) | (as_uint8(is_turned) & FACET_IS_TURNED);
+  s.order = on_z ? bytes_of(order_of(2u)) : on_y ? bytes_of(order_of(1u)) : bytes_of(order_of(0u));
   // A sum is NaN or infinite where a term is.
   const Real offsets = (s.near_offset.x + s.near_offset.y) + s.near_offset.z;
   s.usable = are_in_range(o) & are_in_range(d) & (fabs(main) >= 0x1p-60f) & (fabs(offsets) < INFINITY);
@@ -52,7 +54,7 @@ APART uint add_rays(__global Stream* x, uint* count, Points o, Points d, Real tm
   const Points c = s.inverse, n = s.near_offset, f = s.far_offset;
   const uint8 lane = (uint8)(0u, 1u, 2u, 3u, 4u, 5u, 6u, 7u);
   Real ray[8] = {c.x, c.y, c.z, n.x, n.y, n.z, f.x, f.y};
-  Real more[8] = {f.z, tmin, tmax, in_all(0.0f), s.o.x, s.o.y, s.o.z, as_float8(s.axis)};
+  Real more[8] = {f.z, tmin, tmax, in_all(0.0f), s.o.x, s.o.y, s.o.z, as_float8(s.order)};
   Real rest[8] = {s.shear_x,    s.shear_y,    s.unit,       s.t_of_unit,
                   in_all(0.0f), in_all(0.0f), in_all(0.0f), as_float8(lane + from)};
   transpose(ray);
@@ -81,7 +83,7 @@ static inline Points point_from(__global const float* a) {
 }
 
 // A block's triangles and a ray that has not met them yet.
-static inline void meet_block_alone(const Scene* s, GEOMETRY positions, uint block, __global StreamRay* ray,
+INLINED void meet_block_alone(const Scene* s, GEOMETRY positions, uint block, __global StreamRay* ray,
                               __global StreamRest* rest, uint mode) {
   const Intervals outer = {in_all(-INFINITY), in_all(INFINITY)};
   Rays r;
@@ -93,8 +95,7 @@ static inline void meet_block_alone(const Scene* s, GEOMETRY positions, uint blo
   r.inverse = point_from(ray->inverse);
   r.near_offset = point_from(ray->near_offset);
   r.far_offset = point_from(ray->far_offset);
-  r.axis = ray->axis & ~FACET_IS_TURNED;
-  r.is_turned = (ray->axis & FACET_IS_TURNED) != 0u;
+  r.order.x = ray->order[0], r.order.y = ray->order[1], r.order.z = ray->order[2];
   TriangleHits hits;
   uint left = lanes_of(hit_triangles(&r, positions, triangles_from(positions, block), outer, in_all(ray->tmin),
                                      in_all(ray->t), false, &hits));

@@ -62,7 +62,7 @@ std::vector<variant> single_guards() {
           {"less the hold", "t is never held to the triangle's own interval", unheld()},
           {"always held",
            "t is held also where that is sure to change nothing",
-           {{"triangle.h", "is_held = met & !is_sure;", "is_held = met;"}}},
+           {{"triangle.h", "is_held = is_hit & is_doubtful;", "is_held = is_hit;"}}},
           {"less exact edges", "edge functions are rounded", rounded_edges()},
           {"less the checks", "no ray is refused", unchecked()}};
 }

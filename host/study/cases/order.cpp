@@ -73,7 +73,7 @@ std::vector<way> ways(const lab& l, const scene& s, bool with_brute_force) {
     add("binned, buffer, t always held", tree_kind::binned, geometry_kind::buffer, 0, 0, false);
     all.back().options.layout = layout;
     all.back().options.edits.push_back(
-        {"triangle.h", "is_held = met & !is_sure;", "is_held = met;"});
+        {"triangle.h", "is_held = is_hit & is_doubtful;", "is_held = is_hit;"});
   }
   if (with_brute_force) {
     add("none, buffer, 64", tree_kind::none, geometry_kind::buffer, 0, 0, false);
