@@ -109,8 +109,9 @@ static inline void meet_one(const Scene* s, GEOMETRY positions, PacketPart* p, c
                             Triangles one, uint place, uint slot, uint mode) {
   if (is_none(may_be_within(r, one))) return;
   TriangleHits hits;
-  Mask met = hit_triangles(r, positions, one, outer, p->tmin, p->t, mode == FACET_CROSSINGS, &hits);
+  Mask met = hit_triangles(r, one, outer, p->tmin, p->t, mode == FACET_CROSSINGS, &hits);
   if (is_none(met)) return;
+  met = settle_doubts(r, positions, one, outer, p->tmin, p->t, met, &hits);
   if (mode == FACET_ANY) return answer(p, met);
 #ifndef FACET_NO_TRANSPARENCY
   if (mode == FACET_CROSSINGS) return cross_one(s, p, &hits, met, place, slot);

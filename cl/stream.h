@@ -97,8 +97,12 @@ INLINED void meet_block_alone(const Scene* s, GEOMETRY positions, uint block, __
   r.far_offset = point_from(ray->far_offset);
   r.order.x = ray->order[0], r.order.y = ray->order[1], r.order.z = ray->order[2];
   TriangleHits hits;
-  uint left = lanes_of(hit_triangles(&r, positions, triangles_from(positions, block), outer, in_all(ray->tmin),
-                                     in_all(ray->t), false, &hits));
+  const Triangles triangles = triangles_from(positions, block);
+  const Real from = in_all(ray->tmin), to = in_all(ray->t);
+  const Mask met = hit_triangles(&r, triangles, outer, from, to, false, &hits);
+  uint left = lanes_of(met);
+  if (left == 0u) return;
+  left = lanes_of(settle_doubts(&r, positions, triangles, outer, from, to, met, &hits));
   if (left != 0u && mode == FACET_ANY) {
     ray->t = -INFINITY;
     ray->slot = 0u;

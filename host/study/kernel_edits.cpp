@@ -30,8 +30,8 @@ static inline Points first_corner(Triangles t, const Rays* r, Points* e1, Points
 // Several lanes are asked but once.
 static inline Mask may_be_within(const Rays* r, Triangles t) { return (Mask)(-1); }
 
-INLINED Mask hit_triangles(const Rays* r, GEOMETRY positions, Triangles t, Intervals outer, Real tmin, Real tmax,
-                           bool count, TriangleHits* hits) {
+INLINED Mask hit_triangles(const Rays* r, Triangles t, Intervals outer, Real tmin, Real tmax, bool count,
+                           TriangleHits* hits) {
   Points e1, e2;
   const Points p0 = first_corner(t, r, &e1, &e2), d = r->direction;
   const Points p = cross_each(d, e2), o = less(r->origin, p0);
@@ -47,6 +47,7 @@ INLINED Mask hit_triangles(const Rays* r, GEOMETRY positions, Triangles t, Inter
   hits->v = u, hits->w = v, hits->det = in_all(1.0f);
   hits->is_front = r->axis == 2u ? inverse > 0.0f : inverse < 0.0f;
   hits->is_counted = met;
+  hits->is_doubtful = (Mask)(0);
   return met & (hits->t >= tmin) & (hits->t <= tmax);
 }
 
@@ -104,6 +105,11 @@ kernel_edits unpadded_slabs() {
   return {{"box.h", "const float3 p = pad * fabs(s.inverse);",
            "const float3 p = (float3)(0.0f * pad);"},
           {"space.h", "const Real p = pad * fabs(*inverse)", "const Real p = in_all(0.0f)"}};
+}
+
+kernel_edits always_held() {
+  return {{"triangle.h", "| is_doubtful);", "| is_hit);"},
+          {"triangle.h", "is_held = met & hits->is_doubtful;", "is_held = met;"}};
 }
 
 kernel_edits rounded_edges() {

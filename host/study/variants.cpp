@@ -16,7 +16,9 @@ kernel_edits unordered() {
        "true"}};
 }
 
-kernel_edits unheld() { return {{"triangle.h", "if (!is_none(is_held))", "if (false)"}}; }
+kernel_edits unheld() {
+  return {{"triangle.h", "| is_doubtful);", ");"}, {"triangle.h", "if (is_none(is_held)) return met;", "return met;"}};
+}
 
 kernel_edits unchecked() {
   return {{"space.h", "largest >= 8.673617379884035e-19f &&", "true ||"},
@@ -62,7 +64,7 @@ std::vector<variant> single_guards() {
           {"less the hold", "t is never held to the triangle's own interval", unheld()},
           {"always held",
            "t is held also where that is sure to change nothing",
-           {{"triangle.h", "is_held = is_hit & is_doubtful;", "is_held = is_hit;"}}},
+           always_held()},
           {"less exact edges", "edge functions are rounded", rounded_edges()},
           {"less the checks", "no ray is refused", unchecked()}};
 }
