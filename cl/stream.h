@@ -6,8 +6,8 @@
 #include "stream_layout.h"
 #include "transpose.h"
 
-// As space_of (space.h) of a ray in each lane, for those that it takes and whose offsets are known, which `usable`
-// says.
+// As space_of (space.h) of a ray in each lane where `usable`, which is said of rays that space_of takes, whose offsets
+// are known, unless the space reaches beyond 2^60.
 typedef struct {
   Points inverse, near_offset, far_offset, o;  // o: in units of 2^e, the main axis in z's place
   Real shear_x, shear_y, unit, t_of_unit;
@@ -16,11 +16,6 @@ typedef struct {
 } Spaces;
 
 static inline uint8 bytes_of(Order o) { return (uint8)(o.x | o.y << 8 | o.z << 16); }
-
-// Whether each component is one that space_of takes.
-static inline Mask are_in_range(Points a) {
-  return (fabs(a.x) <= 0x1p60f) & (fabs(a.y) <= 0x1p60f) & (fabs(a.z) <= 0x1p60f);
-}
 
 static inline Spaces spaces_of(Points o, Points d, float3 reach) {
   Spaces s;
@@ -39,9 +34,9 @@ static inline Spaces spaces_of(Points o, Points d, float3 reach) {
   s.o = scaled_points(s.unit, s.o);
   s.t_of_unit = (on_z ? s.inverse.z : on_y ? s.inverse.y : s.inverse.x) * as_float8(exponent);
   s.order = on_z ? bytes_of(order_of(2u)) : on_y ? bytes_of(order_of(1u)) : bytes_of(order_of(0u));
-  // A sum is NaN or infinite where a term is.
+  // A sum is NaN or infinite where a term is. No component of o is more than the extent, none of d than the main one.
   const Real offsets = (s.near_offset.x + s.near_offset.y) + s.near_offset.z;
-  s.usable = are_in_range(o) & are_in_range(d) & (fabs(main) >= 0x1p-60f) & (fabs(offsets) < INFINITY);
+  s.usable = (extent <= 0x1p60f) & (fabs(main) <= 0x1p60f) & (fabs(main) >= 0x1p-60f) & (fabs(offsets) < INFINITY);
   return s;
 }
 

@@ -112,7 +112,7 @@ static inline uint trace_packet(const Scene* s, GEOMETRY positions, __global con
   turns.left = 0u;
   if (together != WHOLE_PACKET) begin_turns(&turns, together, part);
   for (;;) {
-    search_packet(s, positions, &world, mode, part);
+    search_packet(s, positions, &world, together, mode, part);
     if (mode == FACET_CLOSEST) find_shares(s, positions, part, &world);
     if (turns.left == 0u) break;
     together = next_turn(&turns, together, s->reach, part, &world);

@@ -67,7 +67,8 @@ TEST_CASE("packets: rays that stay close give the reference's bits, and do go to
     CHECK(differing_from_reference(s, rays, portable) == 0);
     // Were no packet ever searched, nothing above would have shown anything.
     options lost = in_packets();
-    lost.edits = {{"trace_packet.h", "search_packet(s, positions, &world, mode, part);", ""}};
+    lost.edits = {
+        {"trace_packet.h", "search_packet(s, positions, &world, together, mode, part);", ""}};
     const std::size_t met = hits_of(s, rays, in_packets());
     CHECK(met > rays.size() / 2);
     CHECK(hits_of(s, rays, lost) < met / 2);
@@ -156,7 +157,8 @@ TEST_CASE("packets: rays of another main axis than most go as a packet of their 
     without.edits = {{file, text, ""}};
     return hits_of(s, rays, without);
   };
-  CHECK(left_out("trace_packet.h", "search_packet(s, positions, &world, mode, part);") < met / 4);
+  CHECK(left_out("trace_packet.h", "search_packet(s, positions, &world, together, mode, part);") <
+        met / 4);
   const char* of_second = "part[k].t = t;";
   CHECK(left_out("trace_packet.h", of_second) < 9 * met / 10);
   CHECK(left_out("trace_packet.h", of_second) > met / 4);
