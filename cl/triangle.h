@@ -113,7 +113,8 @@ INLINED Mask hit_triangles(const Rays* r, Triangles p, Intervals outer, Real tmi
   // A branch is worth it for one alone.
   if (FACET_LANES == 1u && is_none(is_hit)) return is_hit;
   const Real top = fma(w, c.z, fma(v, b.z, u * a.z));
-  const Real t = top / det * r->t_of_unit;
+  // The product, with one zero.
+  const Real t = fma(top / det, r->t_of_unit, in_all(0.0f));
   Mask is_doubtful = fabs(det) < 0x1p-100f;
 #ifndef FACET_NO_INSTANCES
   // Else `outer` holds everything.
