@@ -1,9 +1,9 @@
 // What a lane of a block holds that has no triangle (layout.h: TriangleBlock).
 //
 // It repeats corners of the block's first triangle: a, a, b. No ray meets it, by triangle.h. With the sheared
-// corners p, p, q the rough edge functions are P - Q, Q - P and 0 with the same rounded P and Q: of
-// opposite signs, unless P = Q. Then the exact ones, which are the difference of the two products' rounding
-// errors, are opposite, too, or 0, and so is their sum. Whatever else its slot has is the first triangle's.
+// corners p, p, q the edge functions are those of (q, p) and (p, q), of opposite signs or both 0, and 0: either some
+// differ, or det is 0, for which no triangle is met. Where underflow makes a sign 0, |det| is below 2^-100, and
+// t is held, which refuses it.
 #ifndef FACET_BLOCKS_H
 #define FACET_BLOCKS_H
 

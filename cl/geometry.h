@@ -66,26 +66,35 @@ static inline void read_triangle(GEOMETRY g, uint slot, float3* p0, float3* p1, 
   *p2 = (float3)(x[48], x[56], x[64]);
 }
 
-// A coordinate of each, `row` of the block's nine.
-static inline Real coordinate(Triangles t, uint row) {
-  __global const float* at = t.first + FACET_BLOCK * row;
+// A coordinate of each: `skipped` floats come before it, a row of FACET_BLOCK for each of the nine.
+static inline Real coordinate(Triangles t, uint skipped) {
+  __global const float* at = t.first + skipped;
   return t.is_one ? (Real)(*at) : *(__global const Real*)at;
 }
 
 static inline Points points_of(Triangles t, int corner) {
   Points p;
-  p.x = coordinate(t, 3 * corner);
-  p.y = coordinate(t, 3 * corner + 1);
-  p.z = coordinate(t, 3 * corner + 2);
+  p.x = coordinate(t, FACET_BLOCK * (3 * corner));
+  p.y = coordinate(t, FACET_BLOCK * (3 * corner + 1));
+  p.z = coordinate(t, FACET_BLOCK * (3 * corner + 2));
   return p;
 }
 
-// The main axis in z's place.
-static inline Points swapped_corner(Triangles t, int corner, uint axis) {
+// Where a corner's coordinates lie that stand in x's, y's and z's place, the main axis in z's: floats to skip.
+typedef struct {
+  uint x, y, z;
+} Order;
+
+static inline Order order_of(uint axis) {
+  const Order o = {FACET_BLOCK * (axis == 0u ? 2u : 0u), FACET_BLOCK * (axis == 1u ? 2u : 1u), FACET_BLOCK * axis};
+  return o;
+}
+
+static inline Points swapped_corner(Triangles t, int corner, Order order) {
   Points p;
-  p.x = coordinate(t, 3 * corner + (axis == 0u ? 2 : 0));
-  p.y = coordinate(t, 3 * corner + (axis == 1u ? 2 : 1));
-  p.z = coordinate(t, 3 * corner + axis);
+  p.x = coordinate(t, FACET_BLOCK * 3 * corner + order.x);
+  p.y = coordinate(t, FACET_BLOCK * 3 * corner + order.y);
+  p.z = coordinate(t, FACET_BLOCK * 3 * corner + order.z);
   return p;
 }
 
@@ -111,8 +120,13 @@ static inline Triangles read_again(GEOMETRY g, Triangles t) { return triangles_f
 
 static inline Points points_of(Triangles t, int corner) { return point_in_all(t.corner[corner]); }
 
-static inline Points swapped_corner(Triangles t, int corner, uint axis) {
-  return point_in_all(swapped(axis, t.corner[corner]));
+// The main axis, which stands in z's place.
+typedef uint Order;
+
+static inline Order order_of(uint axis) { return axis; }
+
+static inline Points swapped_corner(Triangles t, int corner, Order order) {
+  return point_in_all(swapped(order, t.corner[corner]));
 }
 
 #endif

@@ -41,6 +41,14 @@ static inline Points larger_points(Points a, Points bound) {
   return p;
 }
 
+static inline Points scaled_points(Real by, Points a) {
+  Points p;
+  p.x = by * a.x;
+  p.y = by * a.y;
+  p.z = by * a.z;
+  return p;
+}
+
 // An interval of each.
 typedef struct {
   Real near, far;

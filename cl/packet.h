@@ -34,11 +34,13 @@ typedef struct {
   uint place;  // FACET_NONE: the world
 } PacketSpace;
 
-// Whether on each axis a sign is another than the first ray's.
-static inline bool do_signs_differ(Points d, float3 first) {
-  const Mask x = as_int8(d.x) ^ as_int(first.x), y = as_int8(d.y) ^ as_int(first.y),
-             z = as_int8(d.z) ^ as_int(first.z);
-  return !is_none((x | y | z) < 0);
+// Whether on any axis a sign is another than that direction's.
+static inline bool do_signs_differ(const Points* d, float3 than) {
+  Mask differing = (Mask)(0);
+  for (uint k = 0u; k < FACET_PARTS; ++k)
+    differing |= (as_int8(d[k].x) ^ as_int(than.x)) | (as_int8(d[k].y) ^ as_int(than.y)) |
+                 (as_int8(d[k].z) ^ as_int(than.z));
+  return !is_none(differing < 0);
 }
 
 // Offsets as seen from the centre.
@@ -122,16 +124,19 @@ static inline uint rays_of_axis(const Rays* rays, const Beam* b) {
   return which;
 }
 
-// Of the rays in one space, the parts' o and d in it, those that can be traced together there. None if one cannot be
-// used, or signs of their directions differ; those whose main axis is not that of one in the middle are left out.
-static inline uint packet_in(const PacketPart* part, const Points* o, const Points* d, float3 reach,
+// One in the middle of a packet.
+#define FACET_MIDDLE_RAY (FACET_PACKET / 2u + FACET_LANES / 2u)
+
+// Of the rays in one space, the parts' o and d in it, those that can be traced together there: whose main axis is
+// that of the ray `lead`. None if one cannot be used, or signs of their directions differ.
+static inline uint packet_in(const PacketPart* part, const Points* o, const Points* d, uint lead, float3 reach,
                              PacketSpace* space) {
-  const Points* mid = &d[FACET_PARTS / 2u];
-  const float3 centre = (float3)(o->x.s0, o->y.s0, o->z.s0), first = (float3)(mid->x.s4, mid->y.s4, mid->z.s4);
-  const uint axis = main_axis(first);
+  const float3 centre = (float3)(o->x.s0, o->y.s0, o->z.s0);
+  const float3 towards = point_in_lane(&d[lead / FACET_LANES], lead % FACET_LANES);
+  if (do_signs_differ(d, towards)) return 0u;
+  const uint axis = main_axis(towards);
   Real extent = in_all(0.0f), offsets = in_all(0.0f);
   for (uint k = 0u; k < FACET_PARTS; ++k) {
-    if (do_signs_differ(d[k], first)) return 0u;
     Real e;
     Rays* r = &space->rays[k];
     rays_of(r, axis, o[k], d[k], reach, &e);
@@ -145,23 +150,28 @@ static inline uint packet_in(const PacketPart* part, const Points* o, const Poin
   return have_one_axis(&space->beam) ? WHOLE_PACKET : rays_of_axis(space->rays, &space->beam);
 }
 
-// Rays that look for nothing.
-static inline void leave_out(PacketPart* part, uint which) {
-  for (; which != 0u; which = without_first(which)) {
-    const uint i = first_lane(which);
-    ((float*)&part[i / FACET_LANES].t)[i % FACET_LANES] = -INFINITY;
-  }
-}
-
-// In the world; none also where they had better not go together. Those that are left out look for nothing from now on.
-APART uint packet_of(PacketPart* part, float3 reach, PacketSpace* world) {
-  if (!can_go_together(part, reach)) return 0u;
+// The same in the world.
+static inline uint packet_in_world(const PacketPart* part, uint lead, float3 reach, PacketSpace* world) {
   Points o[FACET_PARTS], d[FACET_PARTS];
   for (uint k = 0u; k < FACET_PARTS; ++k) o[k] = part[k].o, d[k] = part[k].d;
   world->place = FACET_NONE;
-  const uint together = packet_in(part, o, d, reach, world);
-  if (together != WHOLE_PACKET) leave_out(part, ~together);
-  return together;
+  return packet_in(part, o, d, lead, reach, world);
+}
+
+// The same; none also where they had better not go together.
+APART uint packet_of(const PacketPart* part, float3 reach, PacketSpace* world) {
+  return can_go_together(part, reach) ? packet_in_world(part, FACET_MIDDLE_RAY, reach, world) : 0u;
+}
+
+// Those of a part's lanes among the packet's rays in `which`.
+static inline Mask lanes_among(uint which, uint part) {
+  const uint8 bit = (uint8)(1u, 2u, 4u, 8u, 16u, 32u, 64u, 128u);
+  return ((uint8)(which >> FACET_LANES * part) & bit) != 0u;
+}
+
+// Rays that look for nothing.
+static inline void leave_out(PacketPart* part, uint which) {
+  for (uint k = 0u; k < FACET_PARTS; ++k) part[k].t = lanes_among(which, k) ? in_all(-INFINITY) : part[k].t;
 }
 
 #ifndef FACET_NO_INSTANCES
@@ -190,7 +200,7 @@ static inline bool packet_in_instance(const Scene* s, uint place, const PacketPa
     d[k] = map_vectors(i->object_from_world, part[k].d);
   }
   inner->place = place;
-  return packet_in(part, o, d, vec_global(i->reach), inner) == WHOLE_PACKET;
+  return packet_in(part, o, d, FACET_MIDDLE_RAY, vec_global(i->reach), inner) == WHOLE_PACKET;
 }
 
 #endif

@@ -125,8 +125,12 @@ static inline bool meet_triangles(const Scene* s, GEOMETRY positions, const Spac
   TriangleHits hits;
   const Rays ray = in_all_lanes(space);
   const Intervals each = {in_all(outer.near), in_all(outer.far)};
-  uint left = lanes_where(hit_triangles(&ray, positions, triangles_from(positions, first), each, in_all(tmin),
-                                        in_all(q->t), mode == FACET_CROSSINGS, &hits));
+  const Triangles triangles = triangles_from(positions, first);
+  const Real from = in_all(tmin), to = in_all(q->t);
+  const Mask met = hit_triangles(&ray, triangles, each, from, to, mode == FACET_CROSSINGS, &hits);
+  uint left = lanes_where(met);
+  if (left == 0u) return false;
+  left = lanes_where(settle_doubts(&ray, positions, triangles, each, from, to, met, &hits));
   for (; left != 0u; left = without_first(left)) {
     const uint lane = first_lane(left);
     const bool is_crossing = mode == FACET_CROSSINGS;

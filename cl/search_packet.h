@@ -107,15 +107,21 @@ static inline void cross_one(const Scene* s, PacketPart* p, const TriangleHits* 
 
 static inline void meet_one(const Scene* s, GEOMETRY positions, PacketPart* p, const Rays* r, Intervals outer,
                             Triangles one, uint place, uint slot, uint mode) {
+  if (is_none(may_be_within(r, one))) return;
   TriangleHits hits;
-  Mask met = hit_triangles(r, positions, one, outer, p->tmin, p->t, mode == FACET_CROSSINGS, &hits);
+  Mask met = hit_triangles(r, one, outer, p->tmin, p->t, mode == FACET_CROSSINGS, &hits);
   if (is_none(met)) return;
+  // One branch for what is rare.
+  const Mask may_tie = mode == FACET_CLOSEST ? hits.t == p->t : (Mask)(0);
+  if (!is_none(met & (hits.is_doubtful | may_tie))) {
+    met = settle_doubts(r, positions, one, outer, p->tmin, p->t, met, &hits);
+    const uint tied = mode == FACET_CLOSEST ? lanes_of(met & (hits.t == p->t)) : 0u;
+    if (tied != 0u) met &= ~keep_of(s, p, place, slot, tied);
+  }
   if (mode == FACET_ANY) return answer(p, met);
 #ifndef FACET_NO_TRANSPARENCY
   if (mode == FACET_CROSSINGS) return cross_one(s, p, &hits, met, place, slot);
 #endif
-  const uint tied = lanes_of(met & (hits.t == p->t));
-  if (tied != 0u) met &= ~keep_of(s, p, place, slot, tied);
   p->t = met ? hits.t : p->t;
   p->v = met ? hits.v : p->v;
   p->w = met ? hits.w : p->w;
@@ -241,14 +247,15 @@ static inline bool next_child(const Scene* s, const PacketPart* part, PacketSpac
   return false;
 }
 
+// Of the packet's rays those in `rays`, which have anything to look for.
+//
 // A node leaves at most seven children waiting once its nearest is taken, and all eight until then: one entry
 // more than what search_wide.h needs.
-static inline void search_packet(const Scene* s, GEOMETRY positions, PacketSpace* world, uint mode,
+static inline void search_packet(const Scene* s, GEOMETRY positions, PacketSpace* world, uint rays, uint mode,
                                  PacketPart* part) {
   ulong stack[FACET_STACK + 1];
   int top = 0;
-  uint child = s->root, rays = 0u;
-  for (uint k = 0u; k < FACET_PARTS; ++k) rays |= lanes_of(part[k].tmin <= part[k].t) << FACET_LANES * k;
+  uint child = s->root;
   float best = best_of(part);
   PacketSpace* space = world;
 #ifdef FACET_NO_INSTANCES

@@ -4,16 +4,16 @@
 #define FACET_SPACE_H
 
 #include "box.h"
-#include "lanes.h"
+#include "geometry.h"
 
 typedef struct {
-  float3 o;
+  float3 o;         // in units of 2^e
   Slabs slabs;
   uint axis;        // of the largest |d_i|
   bool is_turned;   // what turns counter-clockwise as seen by the ray turns clockwise once sheared
   float2 shear;     // d_x / d_z, d_y / d_z of the swapped direction
-  float unit;       // 2^-e, e being the exponent of E (box.h): sheared z stay below 2
-  float t_of_unit;  // 2^e / d_z: what a sheared z of 1 is in t
+  float unit;       // 2^-e, e being the exponent of E (box.h): corners as seen from o stay below 2
+  float t_of_unit;  // 2^e / d_z: what a z of 1 is in t
 } Space;
 
 // The axis of the direction's largest component, the first of several.
@@ -36,13 +36,13 @@ static inline bool space_of(Space* s, float3 o, float3 d, float3 reach) {
         p.z <= 1.152921504606847e18f))
     return false;
   const float3 main = swapped(s->axis, d);
-  s->o = o;
   s->is_turned = (main.z < 0.0f) != (s->axis != 2u);
   s->shear = main.xy / main.z;
   const float3 e = fabs(o) + reach;
   const float extent = larger(e.x, larger(e.y, e.z));
   const uint exponent = as_uint(larger(extent, 0x1p-60f)) & 0x7f800000u;
   s->unit = as_float(0x7f000000u - exponent);
+  s->o = s->unit * o;
   s->slabs = slabs_of(o, d, extent, largest);
   // The largest component is never raised: this is 1 / d_z.
   s->t_of_unit = swapped(s->axis, s->slabs.inverse).z * as_float(exponent);
@@ -52,10 +52,11 @@ static inline bool space_of(Space* s, float3 o, float3 d, float3 reach) {
 // The rays of the lanes: one in all of them, or in the wide layout one in each. They have one main axis, and
 // turn alike.
 typedef struct {
-  Points o;  // the main axis in z's place
+  Points o;  // in units of 2^e, the main axis in z's place
   Real shear_x, shear_y, unit, t_of_unit;
   Points inverse, near_offset, far_offset;  // slabs, each axis in its own place
   uint axis;
+  Order order;  // of corners as seen along that axis
   bool is_turned;
 } Rays;
 
@@ -70,6 +71,7 @@ static inline Rays in_all_lanes(const Space* s) {
   r.near_offset = point_in_all(s->slabs.near_offset);
   r.far_offset = point_in_all(s->slabs.far_offset);
   r.axis = s->axis;
+  r.order = order_of(s->axis);
   r.is_turned = s->is_turned;
   return r;
 }
@@ -119,13 +121,14 @@ static inline uint8 exponent_of(Real extent) {
 static inline void rays_of(Rays* r, uint axis, Points o, Points d, float3 reach, Real* extent) {
   const Points main = swapped_points(axis, d);
   r->axis = axis;
-  r->o = swapped_points(axis, o);
+  r->order = order_of(axis);
   r->is_turned = (main.z.s0 < 0.0f) != (axis != 2u);
   r->shear_x = main.x / main.z;
   r->shear_y = main.y / main.z;
   slabs_in_lanes(o, d, reach, fabs(main.z), &r->inverse, &r->near_offset, &r->far_offset, extent);
   const uint8 exponent = exponent_of(*extent);
   r->unit = as_float8(0x7f000000u - exponent);
+  r->o = scaled_points(r->unit, swapped_points(axis, o));
   r->t_of_unit = swapped_points(axis, r->inverse).z * as_float8(exponent);
 }
 

@@ -6,19 +6,16 @@
 #include "stream_layout.h"
 #include "transpose.h"
 
-// As space_of (space.h) of a ray in each lane, for those that it takes and whose offsets are known, which `usable`
-// says.
+// As space_of (space.h) of a ray in each lane where `usable`, which is said of rays that space_of takes, whose offsets
+// are known, unless the space reaches beyond 2^60.
 typedef struct {
-  Points inverse, near_offset, far_offset, o;  // o: the main axis in z's place
+  Points inverse, near_offset, far_offset, o;  // o: in units of 2^e, the main axis in z's place
   Real shear_x, shear_y, unit, t_of_unit;
-  uint8 axis;  // layout: StreamRay
+  uint8 order;  // layout: StreamRay
   Mask usable;
 } Spaces;
 
-// Whether each component is one that space_of takes.
-static inline Mask are_in_range(Points a) {
-  return (fabs(a.x) <= 0x1p60f) & (fabs(a.y) <= 0x1p60f) & (fabs(a.z) <= 0x1p60f);
-}
+static inline uint8 bytes_of(Order o) { return (uint8)(o.x | o.y << 8 | o.z << 16); }
 
 static inline Spaces spaces_of(Points o, Points d, float3 reach) {
   Spaces s;
@@ -34,12 +31,12 @@ static inline Spaces spaces_of(Points o, Points d, float3 reach) {
   slabs_in_lanes(o, d, reach, fabs(main), &s.inverse, &s.near_offset, &s.far_offset, &extent);
   const uint8 exponent = exponent_of(extent);
   s.unit = as_float8(0x7f000000u - exponent);
+  s.o = scaled_points(s.unit, s.o);
   s.t_of_unit = (on_z ? s.inverse.z : on_y ? s.inverse.y : s.inverse.x) * as_float8(exponent);
-  const Mask is_turned = (main < 0.0f) ^ !on_z;
-  s.axis = (on_z ? (uint8)(2u) : on_y ? (uint8)(1u) : (uint8)(0u)) | (as_uint8(is_turned) & FACET_IS_TURNED);
-  // A sum is NaN or infinite where a term is.
+  s.order = on_z ? bytes_of(order_of(2u)) : on_y ? bytes_of(order_of(1u)) : bytes_of(order_of(0u));
+  // A sum is NaN or infinite where a term is. No component of o is more than the extent, none of d than the main one.
   const Real offsets = (s.near_offset.x + s.near_offset.y) + s.near_offset.z;
-  s.usable = are_in_range(o) & are_in_range(d) & (fabs(main) >= 0x1p-60f) & (fabs(offsets) < INFINITY);
+  s.usable = (extent <= 0x1p60f) & (fabs(main) <= 0x1p60f) & (fabs(main) >= 0x1p-60f) & (fabs(offsets) < INFINITY);
   return s;
 }
 
@@ -52,7 +49,7 @@ APART uint add_rays(__global Stream* x, uint* count, Points o, Points d, Real tm
   const Points c = s.inverse, n = s.near_offset, f = s.far_offset;
   const uint8 lane = (uint8)(0u, 1u, 2u, 3u, 4u, 5u, 6u, 7u);
   Real ray[8] = {c.x, c.y, c.z, n.x, n.y, n.z, f.x, f.y};
-  Real more[8] = {f.z, tmin, tmax, in_all(0.0f), s.o.x, s.o.y, s.o.z, as_float8(s.axis)};
+  Real more[8] = {f.z, tmin, tmax, in_all(0.0f), s.o.x, s.o.y, s.o.z, as_float8(s.order)};
   Real rest[8] = {s.shear_x,    s.shear_y,    s.unit,       s.t_of_unit,
                   in_all(0.0f), in_all(0.0f), in_all(0.0f), as_float8(lane + from)};
   transpose(ray);
@@ -81,7 +78,7 @@ static inline Points point_from(__global const float* a) {
 }
 
 // A block's triangles and a ray that has not met them yet.
-static inline void meet_block_alone(const Scene* s, GEOMETRY positions, uint block, __global StreamRay* ray,
+INLINED void meet_block_alone(const Scene* s, GEOMETRY positions, uint block, __global StreamRay* ray,
                               __global StreamRest* rest, uint mode) {
   const Intervals outer = {in_all(-INFINITY), in_all(INFINITY)};
   Rays r;
@@ -93,11 +90,14 @@ static inline void meet_block_alone(const Scene* s, GEOMETRY positions, uint blo
   r.inverse = point_from(ray->inverse);
   r.near_offset = point_from(ray->near_offset);
   r.far_offset = point_from(ray->far_offset);
-  r.axis = ray->axis & ~FACET_IS_TURNED;
-  r.is_turned = (ray->axis & FACET_IS_TURNED) != 0u;
+  r.order.x = ray->order[0], r.order.y = ray->order[1], r.order.z = ray->order[2];
   TriangleHits hits;
-  uint left = lanes_of(hit_triangles(&r, positions, triangles_from(positions, block), outer, in_all(ray->tmin),
-                                     in_all(ray->t), false, &hits));
+  const Triangles triangles = triangles_from(positions, block);
+  const Real from = in_all(ray->tmin), to = in_all(ray->t);
+  const Mask met = hit_triangles(&r, triangles, outer, from, to, false, &hits);
+  uint left = lanes_of(met);
+  if (left == 0u) return;
+  left = lanes_of(settle_doubts(&r, positions, triangles, outer, from, to, met, &hits));
   if (left != 0u && mode == FACET_ANY) {
     ray->t = -INFINITY;
     ray->slot = 0u;

@@ -18,10 +18,9 @@ struct FACET_ALIGNED StreamRay {
   float tmin;
   float t;          // tmax, or the best hit's; -INFINITY: nothing more is looked for
   uint slot;        // of the best hit; FACET_NONE
-  float origin[3];  // the main axis in z's place
-  uint axis;        // the main one, and FACET_IS_TURNED where space.h's is_turned
+  float origin[3];  // space.h: Rays, o
+  unsigned char order[4];  // geometry.h: Order, and 0
 };
-#define FACET_IS_TURNED 4u
 
 // What triangles ask, too.
 struct FACET_ALIGNED StreamRest {

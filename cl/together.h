@@ -92,7 +92,7 @@ static inline bool as_packet(const Scene* s, GEOMETRY positions, Bundle* b, uint
       for (int c = 0; c < 3; ++c) part[k].depth[lane][c] = 0;
   }
 #endif
-  search_packet(s, positions, &world, mode, part);
+  search_packet(s, positions, &world, some, mode, part);
   for (; some != 0u; some = without_first(some)) {
     const uint i = first_lane(some);
     found[i] = query_in_lane(s, positions, &world, part, i, mode);

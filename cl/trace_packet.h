@@ -5,14 +5,17 @@
 #include "together.h"
 #include "trace.h"
 
-// The shares of the hits that rays have met alone.
-static inline void find_shares(const Scene* s, GEOMETRY positions, const PacketPart* p, const Rays* rays,
-                               uint lanes, Real* u, Real* v) {
-  for (; lanes != 0u; lanes = without_first(lanes)) {
-    const uint lane = first_lane(lanes);
-    const Query q = met_in_lane(s, positions, p, rays, lane);
-    ((float*)u)[lane] = q.u;
-    ((float*)v)[lane] = q.v;
+// The shares of the hits that rays have met alone, in that space.
+static inline void find_shares(const Scene* s, GEOMETRY positions, PacketPart* part, const PacketSpace* world) {
+  for (uint k = 0u; k < FACET_PARTS; ++k) {
+    PacketPart* p = &part[k];
+    for (uint lanes = lanes_of((p->slot != FACET_NONE) & (p->det == 0.0f)); lanes != 0u; lanes = without_first(lanes)) {
+      const uint lane = first_lane(lanes);
+      const Query q = met_in_lane(s, positions, p, &world->rays[k], lane);
+      ((float*)&p->v)[lane] = q.u;
+      ((float*)&p->w)[lane] = q.v;
+      ((float*)&p->det)[lane] = 1.0f;
+    }
   }
 }
 
@@ -26,8 +29,8 @@ static inline void write_hits(__global Hit* hits, Real t, Real u, Real v, uint8 
   two[3] = (float8)(t.s6, u.s6, v.s6, n.s6, t.s7, u.s7, v.s7, n.s7);
 }
 
-static inline void write_part(const Scene* s, GEOMETRY positions, const PacketPart* p, const Rays* rays,
-                              uint mode, __global Hit* hits, __global uint* hit_instances) {
+static inline void write_part(const Scene* s, const PacketPart* p, uint mode, __global Hit* hits,
+                              __global uint* hit_instances) {
   const Mask is_hit = p->slot != FACET_NONE;
   if (mode == FACET_ANY) {
     write_hits(hits, is_hit ? in_all(0.0f) : p->t, in_all(0.0f), in_all(0.0f),
@@ -37,8 +40,7 @@ static inline void write_part(const Scene* s, GEOMETRY positions, const PacketPa
 #endif
     return;
   }
-  Real u = is_hit ? p->v / p->det : in_all(0.0f), v = is_hit ? p->w / p->det : in_all(0.0f);
-  find_shares(s, positions, p, rays, lanes_of(is_hit & (p->det == 0.0f)), &u, &v);
+  const Real u = is_hit ? p->v / p->det : in_all(0.0f), v = is_hit ? p->w / p->det : in_all(0.0f);
   uint of[FACET_LANES];
   vstore8(is_hit ? p->slot : (uint8)(0u), 0, of);
   for (uint lane = 0u; lane < FACET_LANES; ++lane) of[lane] = s->infos[of[lane]].triangle;
@@ -58,33 +60,6 @@ static inline void read_part(__global const Ray* rays, PacketPart* p) {
   begin_part(p, o, d, a[3], a[7]);
 }
 
-// In place of rays that are not in `some` its first stands again.
-APART void stand_in(__global const Ray* rays, uint some, PacketPart* part) {
-  const uint lead = first_lane(some);
-  __global const Ray* first = rays + lead;
-  const float tmin = stored_lane(&part[lead / FACET_LANES].tmin, lead % FACET_LANES);
-  for (uint others = ~some; others != 0u; others = without_first(others)) {
-    const uint i = first_lane(others), lane = i % FACET_LANES;
-    PacketPart* p = &part[i / FACET_LANES];
-    Points *o = &p->o, *d = &p->d;
-    ((float*)&o->x)[lane] = first->origin[0], ((float*)&d->x)[lane] = first->direction[0];
-    ((float*)&o->y)[lane] = first->origin[1], ((float*)&d->y)[lane] = first->direction[1];
-    ((float*)&o->z)[lane] = first->origin[2], ((float*)&d->z)[lane] = first->direction[2];
-    ((float*)&p->tmin)[lane] = tmin;
-    ((float*)&p->t)[lane] = first->tmax;
-  }
-}
-
-APART void write_some(const Scene* s, GEOMETRY positions, const PacketSpace* world, const PacketPart* part, uint some,
-                      uint mode, __global Hit* hits, __global uint* hit_instances) {
-  for (; some != 0u; some = without_first(some)) {
-    const uint i = first_lane(some);
-    Query q = query_in_lane(s, positions, world, part, i, mode);
-    settle(&q, mode);
-    write_hit(hits, hit_instances, i, &q);
-  }
-}
-
 // Asks for the rays of the packet after the next: memory would not come in time for what walks over many.
 static inline void fetch_rays(__global const Ray* rays) {
   __global const Ray* next = rays + 2u * FACET_PACKET;
@@ -94,30 +69,58 @@ static inline void fetch_rays(__global const Ray* rays) {
   fetch_lines(next + 24, 256u);
 }
 
-// Those of FACET_PACKET rays that go together; then those that only have another main axis do. Gives the others.
+// Rays of a packet whose main axes differ: those of one after those of another.
+typedef struct {
+  Real t[FACET_PARTS];  // of those that have been searched for what they met, of the others how far they look
+  uint left;            // the others
+} Turns;
+
+APART void begin_turns(Turns* u, uint together, PacketPart* part) {
+  for (uint k = 0u; k < FACET_PARTS; ++k) u->t[k] = part[k].t;
+  u->left = WHOLE_PACKET;
+  leave_out(part, ~together);
+}
+
+// After a search of those in `together`: gives those that go next, or none if too few are left for a packet.
+APART uint next_turn(Turns* u, uint together, float3 reach, PacketPart* part, PacketSpace* world) {
+  u->left &= ~together;
+  for (uint k = 0u; k < FACET_PARTS; ++k) {
+    const Real t = u->t[k];
+    u->t[k] = lanes_among(together, k) ? part[k].t : t;
+    part[k].t = t;
+  }
+  const uint next = popcount(u->left) < FEW_ALIKE ? 0u : u->left & packet_in_world(part, first_lane(u->left), reach, world);
+  if (next != 0u)
+    leave_out(part, ~next);
+  else
+    for (uint k = 0u; k < FACET_PARTS; ++k) part[k].t = u->t[k];
+  return next;
+}
+
+// Traces those of FACET_PACKET rays that go together; then those that only have another main axis do. Gives the others,
+// of whose hits nothing is known.
 static inline uint trace_packet(const Scene* s, GEOMETRY positions, __global const Ray* rays, uint mode,
                                 __global Hit* hits, __global uint* hit_instances) {
   PacketPart part[FACET_PARTS];
   PacketSpace world;
-  uint some = WHOLE_PACKET;
-  if (s->triangle_count == 0u) return some;
+  if (s->triangle_count == 0u) return WHOLE_PACKET;
   fetch_rays(rays);
+  for (uint k = 0u; k < FACET_PARTS; ++k) read_part(rays + FACET_LANES * k, &part[k]);
+  uint together = packet_of(part, s->reach, &world);
+  if (together == 0u) return WHOLE_PACKET;
+  Turns turns;
+  turns.left = 0u;
+  if (together != WHOLE_PACKET) begin_turns(&turns, together, part);
   for (;;) {
-    for (uint k = 0u; k < FACET_PARTS; ++k) read_part(rays + FACET_LANES * k, &part[k]);
-    if (some != WHOLE_PACKET) stand_in(rays, some, part);
-    const uint together = packet_of(part, s->reach, &world) & some;
-    if (together == 0u) return some;
-    if (some != WHOLE_PACKET) leave_out(part, ~some);
-    search_packet(s, positions, &world, mode, part);
-    if (some != WHOLE_PACKET)
-      write_some(s, positions, &world, part, together, mode, hits, hit_instances);
-    else
-      for (uint k = 0u; k < FACET_PARTS; ++k)
-        write_part(s, positions, &part[k], &world.rays[k], mode, hits + FACET_LANES * k,
-                   hit_instances + FACET_LANES * k);
-    some &= ~together;
-    if (popcount(some) < FEW_ALIKE) return some;
+    search_packet(s, positions, &world, together, mode, part);
+    if (mode == FACET_CLOSEST) find_shares(s, positions, part, &world);
+    if (turns.left == 0u) break;
+    together = next_turn(&turns, together, s->reach, part, &world);
+    if (together == 0u) break;
   }
+  for (uint k = 0u; k < FACET_PARTS; ++k)
+    write_part(s, &part[k], mode, hits + FACET_LANES * k, hit_instances + FACET_LANES * k);
+  return turns.left;
 }
 
 APART void trace_alone(const Scene* s, GEOMETRY positions, __global const Ray* rays, uint which, uint mode,

@@ -12,21 +12,15 @@
 #include "geometry.h"
 #include "space.h"
 
-// Corners relative to the rays' origins, the main axis in z's place.
-static inline Points relative(const Rays* r, Triangles t, int corner) {
-  Points a = swapped_corner(t, corner, r->axis);
-  a.x = a.x - r->o.x;
-  a.y = a.y - r->o.y;
-  a.z = a.z - r->o.z;
-  return a;
-}
-
-// The same, sheared so that each ray is the z axis from the origin on.
+// Corners relative to the rays' origins, in units of 2^e (space.h: these products are exact), the main axis in z's
+// place, sheared so that each ray is the z axis from the origin on.
 static inline Points sheared(const Rays* r, Triangles t, int corner) {
-  Points a = relative(r, t, corner);
+  Points a = swapped_corner(t, corner, r->order);
+  a.x = fma(r->unit, a.x, -r->o.x);
+  a.y = fma(r->unit, a.y, -r->o.y);
+  a.z = fma(r->unit, a.z, -r->o.z);
   a.x = fma(-r->shear_x, a.z, a.x);
   a.y = fma(-r->shear_y, a.z, a.y);
-  a.z = r->unit * a.z;
   return a;
 }
 
@@ -37,13 +31,18 @@ static inline Real edge_function(Points p, Points q) {
   return fma(p.x, q.y, -b) + fma(-p.y, q.x, b);
 }
 
-// The same with rounded products: its sign is right or it is 0.
-static inline Real rough_edge(Points p, Points q) { return p.x * q.y - p.y * q.x; }
-
 // Whether the ray passes all edges on one side, or through them.
 static inline Mask is_within(Real u, Real v, Real w) {
   const Real least = smaller_each(smaller_each(u, v), w), most = larger_each(larger_each(u, v), w);
   return (least >= 0.0f) | (most <= 0.0f);
+}
+
+// False only where is_within says so of the edge functions: a product that is not less than another is not less when
+// both are rounded. Most triangles are passed by, and comparisons are enough for that.
+INLINED Mask may_be_within(const Rays* r, Triangles p) {
+  const Points a = sheared(r, p, 0), b = sheared(r, p, 1), c = sheared(r, p, 2);
+  const Real u0 = c.x * b.y, u1 = c.y * b.x, v0 = a.x * c.y, v1 = a.y * c.x, w0 = b.x * a.y, w1 = b.y * a.x;
+  return ((u0 >= u1) & (v0 >= v1) & (w0 >= w1)) | ((u0 <= u1) & (v0 <= v1) & (w0 <= w1));
 }
 
 // The sign of an edge function with ties broken by moving the ray by (eps, eps^2) in the plane
@@ -60,6 +59,7 @@ typedef struct {
   Real v, w, det;   // shares of the second and third corner, in units of det
   Mask is_front;    // the ray enters through the side on which the corners turn counter-clockwise
   Mask is_counted;  // this triangle, not a neighbour, owns the edge or corner that is met
+  Mask is_doubtful; // t is to be held to boxes
 } TriangleHits;
 
 // Along one axis, where a ray enters a triangle's box, or with the other side first leaves it.
@@ -68,11 +68,13 @@ static inline Real crossing_of(Real lo, Real hi, Real inverse, Real offset) {
 }
 
 // Holds t to the interval of the triangle's own box, cut with `outer`: so no node that leads to the
-// triangle can have been left out (box.h). False where the two have nothing in common. It is
-// hardly ever needed.
+// triangle can have been left out (box.h). False where the two have nothing in common, or for a triangle that
+// begins with one corner twice (blocks.h). It is hardly ever needed.
 static inline Mask hold_to_boxes(const Rays* r, Triangles p, Intervals outer, Real* t) {
   Points lo, hi;
   bounds_of(p, &lo, &hi);
+  const Points p0 = points_of(p, 0), p1 = points_of(p, 1);
+  const Mask have_side = (p0.x != p1.x) | (p0.y != p1.y) | (p0.z != p1.z);
   const Points d = r->inverse, n = r->near_offset, f = r->far_offset;
   Real near = outer.near, far = outer.far;
   near = larger_each(crossing_of(lo.x, hi.x, d.x, n.x), near);
@@ -84,12 +86,13 @@ static inline Mask hold_to_boxes(const Rays* r, Triangles p, Intervals outer, Re
   const Real after = *t < near ? near : *t;
   // One zero: that of a face may have either sign.
   *t = (after > far ? far : after) + 0.0f;
-  return near <= far;
+  return have_side & (near <= far);
 }
 
 // The lanes whose rays meet their triangles with t in tmin..tmax; the edges belong to the triangle. A literal:
 // `count`, whether is_front and is_counted are asked for. t lies in the interval of the triangle's own box and in
-// `outer`, that of its instance's box in the world.
+// `outer`, that of its instance's box in the world, once settle_doubts has gone over them: that is for the caller to do,
+// so that few instructions come before the branch that most triangles take.
 //
 // It does so by itself, unless an underflow or an instance's maps come between. With u, v, w as they
 // come out, each within 2u of the edge function of the sheared corners, b = u / (u+v+w) and so on are
@@ -98,42 +101,45 @@ static inline Mask hold_to_boxes(const Rays* r, Triangles p, Intervals outer, Re
 // of the ray where P's distance along the main axis is t. t itself is off by 9u E (each z by u, the sum
 // and its quotient by 6u, 1 / d_z and its product by 2u). The slabs are off by 4u E: together 22u E, on
 // any axis, whatever the angle, for an error of t moves P within the triangle. The pad is 24u E.
-// Nothing overflows: x and y are below 2^62, edge functions below 2^125, z at most 2. Edge
-// functions have lost no more than 2^-147 to underflow: with |det| >= 2^-100 that is below u E / 2, and
-// with |top| >= 2^-100 that of its products is below u |t|.
-INLINED Mask hit_triangles(const Rays* r, GEOMETRY positions, Triangles p, Intervals outer, Real tmin, Real tmax,
-                           bool count, TriangleHits* hits) {
+// Nothing overflows: in units of 2^e, which is at most E and more than E / 2, z are below 2, x and y below 4, edge
+// functions below 32. To underflow edge functions have lost no more than 2^-147, and the top 2^-145: with |det| >= 2^-100
+// P moves by less than 2^-44 E, and t by as much.
+INLINED Mask hit_triangles(const Rays* r, Triangles p, Intervals outer, Real tmin, Real tmax, bool count,
+                           TriangleHits* hits) {
   const Points a = sheared(r, p, 0), b = sheared(r, p, 1), c = sheared(r, p, 2);
-  // Most of many lanes' triangles are passed by: these need no more than the signs.
-  if (FACET_LANES > 1u) {
-    const Mask near_by = is_within(rough_edge(c, b), rough_edge(a, c), rough_edge(b, a));
-    if (is_none(near_by)) return near_by;
-  }
   const Real u = edge_function(c, b), v = edge_function(a, c), w = edge_function(b, a);
   const Real det = (u + v) + w;
-  Mask met = is_within(u, v, w);
-  if (is_none(met)) return met;
+  const Mask is_hit = is_within(u, v, w);
+  // A branch is worth it for one alone.
+  if (FACET_LANES == 1u && is_none(is_hit)) return is_hit;
   const Real top = fma(w, c.z, fma(v, b.z, u * a.z));
-  Real t = top / det * r->t_of_unit;
-  // |top| >= 2^-100 and |det| >= 2^-100, so that it is not 0. Without instances `outer` holds everything.
-  Mask is_sure = smaller_each(fabs(top), fabs(det)) >= 0x1p-100f;
+  // The product, with one zero.
+  const Real t = fma(top / det, r->t_of_unit, in_all(0.0f));
+  Mask is_doubtful = fabs(det) < 0x1p-100f;
 #ifndef FACET_NO_INSTANCES
-  is_sure &= (t >= outer.near) & (t <= outer.far);
+  // Else `outer` holds everything.
+  is_doubtful |= (t < outer.near) | (t > outer.far);
 #endif
-  const Mask is_held = met & !is_sure;
-  if (!is_none(is_held)) {
-    Real held = t;
-    met &= (hold_to_boxes(r, read_again(positions, p), outer, &held) & (det != 0.0f)) | !is_held;
-    t = is_held ? held : t;
-  }
   hits->t = t;
+  hits->is_doubtful = is_doubtful;
   hits->v = v, hits->w = w, hits->det = det;
   if (count) {
     const Real su = edge_sign(u, c, b), sv = edge_sign(v, a, c), sw = edge_sign(w, b, a);
     hits->is_counted = ((su > 0.0f) & (sv > 0.0f) & (sw > 0.0f)) | ((su < 0.0f) & (sv < 0.0f) & (sw < 0.0f));
     hits->is_front = r->is_turned ? !(su > 0.0f) : su > 0.0f;
   }
-  return met & (t >= tmin) & (t <= tmax);
+  return is_hit & (((t >= tmin) & (t <= tmax)) | is_doubtful);
+}
+
+// Of the lanes that hit_triangles has found, those that meet their triangles.
+INLINED Mask settle_doubts(const Rays* r, GEOMETRY positions, Triangles p, Intervals outer, Real tmin, Real tmax,
+                           Mask met, TriangleHits* hits) {
+  const Mask is_held = met & hits->is_doubtful;
+  if (is_none(is_held)) return met;
+  Real held = hits->t;
+  const Mask is_kept = hold_to_boxes(r, read_again(positions, p), outer, &held) & (hits->det != 0.0f);
+  hits->t = is_held ? held : hits->t;
+  return met & (!is_held | (is_kept & (held >= tmin) & (held <= tmax)));
 }
 
 // Where the ray meets the triangle in a slot, which hit_triangles has accepted: the hit's u and v, the shares

@@ -51,7 +51,7 @@ struct space {
   int kx, ky, kz;  ///< kz: the direction's largest axis, which changes places with z
   bool turned;     ///< corners that turn left turn right in these axes
   T Sx, Sy;        ///< the shear that maps the direction to the z axis
-  T unit;       ///< 2^-e, e being the exponent of E: makes z at most 2, so that nothing overflows
+  T unit;       ///< 2^-e, e being the exponent of E: corners as seen from the origin stay below 2
   T t_of_unit;  ///< 2^e / d_z: what a z of 1 is in t
   vec3<T> inverse;  ///< 1 / direction, bounded
   vec3<T> reach;    ///< |origin| + the largest |coordinate| of the boxes, by axis

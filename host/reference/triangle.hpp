@@ -19,17 +19,16 @@ box3<T> bounds_of(const corners<T>& p) {
   return {min(min(p[0], p[1]), p[2]), max(max(p[0], p[1]), p[2])};
 }
 
-/// A corner seen along the ray, which runs along z through the origin of x and y; z in units of
-/// 2^e.
+/// A corner seen along the ray, which runs along z from the origin on, in units of 2^e.
 template <class T>
 struct sheared {
   T x, y, z;
 
   sheared(const space<T>& s, const vec3<T>& corner) {
-    const axes<T> a(corner - s.origin);
+    const axes<T> a(s.unit * (corner - s.origin));
     x = std::fma(-s.Sx, a[s.kz], a[s.kx]);
     y = std::fma(-s.Sy, a[s.kz], a[s.ky]);
-    z = s.unit * a[s.kz];
+    z = a[s.kz];
   }
 };
 
@@ -69,7 +68,8 @@ class triangle_test {
   std::optional<triangle_hit<T>> accept(const interval<T>& outer, T tmin, T tmax) const {
     if ((u_ < 0 || v_ < 0 || w_ < 0) && (u_ > 0 || v_ > 0 || w_ > 0)) return {};
     const T det = (u_ + v_) + w_;
-    if (det == 0) return {};
+    // Corners that coincide have no area, whatever underflow has made of it.
+    if (det == 0 || p_[0] == p_[1]) return {};
     T t = std::fma(w_, c_.z, std::fma(v_, b_.z, u_ * a_.z)) / det * space_.t_of_unit;
     const interval<T> slab = space_.slab(bounds_of(p_)).meet(outer);
     if (!(slab.near <= slab.far)) return {};

@@ -21,17 +21,20 @@ static inline Points less(Points a, Points b) {
 }
 
 static inline Points first_corner(Triangles t, const Rays* r, Points* e1, Points* e2) {
-  const Points p0 = swapped_corner(t, 0, r->axis);
-  *e1 = less(swapped_corner(t, 1, r->axis), p0);
-  *e2 = less(swapped_corner(t, 2, r->axis), p0);
+  const Points p0 = swapped_corner(t, 0, r->order);
+  *e1 = less(swapped_corner(t, 1, r->order), p0);
+  *e2 = less(swapped_corner(t, 2, r->order), p0);
   return p0;
 }
 
-INLINED Mask hit_triangles(const Rays* r, GEOMETRY positions, Triangles t, Intervals outer, Real tmin, Real tmax,
-                           bool count, TriangleHits* hits) {
+// Several lanes are asked but once.
+static inline Mask may_be_within(const Rays* r, Triangles t) { return (Mask)(-1); }
+
+INLINED Mask hit_triangles(const Rays* r, Triangles t, Intervals outer, Real tmin, Real tmax, bool count,
+                           TriangleHits* hits) {
   Points e1, e2;
   const Points p0 = first_corner(t, r, &e1, &e2), d = r->direction;
-  const Points p = cross_each(d, e2), o = less(r->o, p0);
+  const Points p = cross_each(d, e2), o = less(r->origin, p0);
   const Real inverse = 1.0f / dot_each(e1, p);
   const Real u = dot_each(o, p) * inverse;
   Mask met = (u >= 0.0f) & (u <= 1.0f);
@@ -44,6 +47,7 @@ INLINED Mask hit_triangles(const Rays* r, GEOMETRY positions, Triangles t, Inter
   hits->v = u, hits->w = v, hits->det = in_all(1.0f);
   hits->is_front = r->axis == 2u ? inverse > 0.0f : inverse < 0.0f;
   hits->is_counted = met;
+  hits->is_doubtful = (Mask)(0);
   return met & (hits->t >= tmin) & (hits->t <= tmax);
 }
 
@@ -51,7 +55,7 @@ static inline float2 shares_in_slot(const Space* s, GEOMETRY positions, uint slo
   const Rays r = in_all_lanes(s);
   Points e1, e2;
   const Points p0 = first_corner(triangles_from(positions, slot / FACET_LANES), &r, &e1, &e2);
-  const Points p = cross_each(r.direction, e2), o = less(r.o, p0);
+  const Points p = cross_each(r.direction, e2), o = less(r.origin, p0);
   const Real inverse = 1.0f / dot_each(e1, p);
   return (float2)(in_lane(dot_each(o, p) * inverse, slot % FACET_LANES),
                   in_lane(dot_each(r.direction, cross_each(o, e1)) * inverse, slot % FACET_LANES));
@@ -67,25 +71,30 @@ const char* const end_of_shares =
 }  // namespace
 
 kernel_edits with_direction() {
-  return {{"space.h", "  float3 o;\n", "  float3 o, direction;\n"},
-          {"space.h", "  s->o = o;\n", "  s->o = o;\n  s->direction = d;\n"},
-          {"space.h", "  Points o;  // the main", "  Points direction, o;  // the main"},
+  return {{"space.h", "  float3 o;  ", "  float3 direction, origin, o;"},
+          {"space.h", "  s->o = s->unit * o;\n",
+           "  s->o = s->unit * o;\n  s->direction = d;\n  s->origin = o;\n"},
+          {"space.h", "  Points o;  //", "  Points direction, origin, o;  //"},
           {"space.h", "  r.shear_x = ",
-           "  r.direction = point_in_all(swapped(s->axis, s->direction));\n  r.shear_x = "},
-          {"space.h", "  r->shear_x = ", "  r->direction = main;\n  r->shear_x = "},
+           "  r.direction = point_in_all(swapped(s->axis, s->direction));\n"
+           "  r.origin = point_in_all(swapped(s->axis, s->origin));\n  r.shear_x = "},
+          {"space.h", "  r->shear_x = ",
+           "  r->direction = main;\n  r->origin = swapped_points(axis, o);\n  r->shear_x = "},
           {"space.h", "  s.axis = r->axis;\n",
-           "  s.direction = swapped(r->axis, point_in_lane(&r->direction, lane));\n  s.axis = "
-           "r->axis;\n"},
-          // 1 / d_z is t_of_unit * unit, and rounded.
-          {"stream.h", "  r.axis = ray->axis",
+           "  s.direction = swapped(r->axis, point_in_lane(&r->direction, lane));\n"
+           "  s.origin = swapped(r->axis, point_in_lane(&r->origin, lane));\n  s.axis = r->axis;\n"},
+          // 1 / d_z is t_of_unit * unit, and rounded; the origin was scaled by a power of two.
+          {"stream.h", "  r.order.x = ray->order[0]",
+           "  r.origin = scaled_points(1.0f / r.unit, r.o);\n"
            "  r.direction.z = 1.0f / (r.t_of_unit * r.unit);\n"
            "  r.direction.x = r.shear_x * r.direction.z;\n"
-           "  r.direction.y = r.shear_y * r.direction.z;\n  r.axis = ray->axis"}};
+           "  r.direction.y = r.shear_y * r.direction.z;\n  r.order.x = ray->order[0]"}};
 }
 
 kernel_edits moller_trumbore_test() {
   return joined({with_direction(),
                  {{"triangle.h", "INLINED Mask hit_triangles(", "static inline Mask unused_test("},
+                  {"triangle.h", "INLINED Mask may_be_within(", "static inline Mask unused_within("},
                   {"triangle.h", "static inline float2 shares_in_slot(",
                    "static inline float2 unused_shares("},
                   {"triangle.h", std::string(end_of_shares) + "\n#endif\n",
@@ -96,6 +105,11 @@ kernel_edits unpadded_slabs() {
   return {{"box.h", "const float3 p = pad * fabs(s.inverse);",
            "const float3 p = (float3)(0.0f * pad);"},
           {"space.h", "const Real p = pad * fabs(*inverse)", "const Real p = in_all(0.0f)"}};
+}
+
+kernel_edits always_held() {
+  return {{"triangle.h", "| is_doubtful);", "| is_hit);"},
+          {"triangle.h", "is_held = met & hits->is_doubtful;", "is_held = met;"}};
 }
 
 kernel_edits rounded_edges() {

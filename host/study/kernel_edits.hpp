@@ -20,6 +20,9 @@ kernel_edits moller_trumbore_test();
 /// Slabs without a pad.
 kernel_edits unpadded_slabs();
 
+/// t held to the triangle's own interval also where that is sure to change nothing.
+kernel_edits always_held();
+
 /// Edge functions as the difference of two rounded products.
 kernel_edits rounded_edges();
 

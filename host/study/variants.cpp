@@ -11,12 +11,15 @@ kernel_edits unordered() {
        "t >= q->t && (t > q->t || (q->slot != FACET_NONE && !is_before(s, place, slot, q->place, "
        "q->slot)))",
        "t >= q->t"},
-      {"search_packet.h", "lanes_of(met & (hits.t == p->t))", "0u"},
+      {"search_packet.h", "mode == FACET_CLOSEST ? hits.t == p->t", "false ? hits.t == p->t"},
       {"stream.h", "t > ray->t || (best != FACET_NONE && !is_before(s, 0u, slot, 0u, best))",
        "true"}};
 }
 
-kernel_edits unheld() { return {{"triangle.h", "if (!is_none(is_held))", "if (false)"}}; }
+kernel_edits unheld() {
+  return {{"triangle.h", "hits->is_doubtful = is_doubtful;", "hits->is_doubtful = (Mask)(0);"},
+          {"triangle.h", "| is_doubtful);", ");"}};
+}
 
 kernel_edits unchecked() {
   return {{"space.h", "largest >= 8.673617379884035e-19f &&", "true ||"},
@@ -60,9 +63,7 @@ std::vector<variant> single_guards() {
   return {{"less the pad", "slabs as they come out", unpadded_slabs()},
           {"less the order", "the first of equal hits wins", unordered()},
           {"less the hold", "t is never held to the triangle's own interval", unheld()},
-          {"always held",
-           "t is held also where that is sure to change nothing",
-           {{"triangle.h", "is_held = met & !is_sure;", "is_held = met;"}}},
+          {"always held", "t is held also where that is sure to change nothing", always_held()},
           {"less exact edges", "edge functions are rounded", rounded_edges()},
           {"less the checks", "no ray is refused", unchecked()}};
 }

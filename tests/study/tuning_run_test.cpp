@@ -75,8 +75,9 @@ tracer::options wrong_in_groups_of(std::uint32_t size) {
 tracer::options slow_in_groups(const std::string& test, std::uint32_t size) {
   const std::string wait = "  if (get_local_size(0) " + test + " " + std::to_string(size) +
                            "u)\n    for (volatile uint k = 0u; k < 20000u; ++k);\n";
-  const std::string alone = "  Query q = traverse(s, positions, vec_global(r->origin)",
-                    packet = "  PacketPart part[FACET_PARTS];\n  PacketSpace world;\n  uint some";
+  const std::string
+      alone = "  Query q = traverse(s, positions, vec_global(r->origin)",
+      packet = "  PacketPart part[FACET_PARTS];\n  PacketSpace world;\n  if (s->triangle_count";
   tracer::options o;
   o.edits = {{"trace.h", alone, wait + alone}, {"trace_packet.h", packet, wait + packet}};
   return o;

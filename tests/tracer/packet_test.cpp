@@ -67,7 +67,8 @@ TEST_CASE("packets: rays that stay close give the reference's bits, and do go to
     CHECK(differing_from_reference(s, rays, portable) == 0);
     // Were no packet ever searched, nothing above would have shown anything.
     options lost = in_packets();
-    lost.edits = {{"trace_packet.h", "search_packet(s, positions, &world, mode, part);", ""}};
+    lost.edits = {
+        {"trace_packet.h", "search_packet(s, positions, &world, together, mode, part);", ""}};
     const std::size_t met = hits_of(s, rays, in_packets());
     CHECK(met > rays.size() / 2);
     CHECK(hits_of(s, rays, lost) < met / 2);
@@ -156,9 +157,9 @@ TEST_CASE("packets: rays of another main axis than most go as a packet of their 
     without.edits = {{file, text, ""}};
     return hits_of(s, rays, without);
   };
-  CHECK(left_out("trace_packet.h", "search_packet(s, positions, &world, mode, part);") < met / 4);
-  const char* of_second =
-      "write_some(s, positions, &world, part, together, mode, hits, hit_instances)";
+  CHECK(left_out("trace_packet.h", "search_packet(s, positions, &world, together, mode, part);") <
+        met / 4);
+  const char* of_second = "part[k].t = t;";
   CHECK(left_out("trace_packet.h", of_second) < 9 * met / 10);
   CHECK(left_out("trace_packet.h", of_second) > met / 4);
   options wrong = in_packets();
@@ -169,7 +170,7 @@ TEST_CASE("packets: rays of another main axis than most go as a packet of their 
   CHECK(hits_of(s, rays, wrong) > met / 2);
   // They are the same where there are none.
   options once = in_packets();
-  once.edits = {{"trace_packet.h", "popcount(some) < FEW_ALIKE", "true"}};
+  once.edits = {{"trace_packet.h", "popcount(u->left) < FEW_ALIKE", "true"}};
   CHECK(differing_from_reference(s, rays, once) == 0);
   // With the packet's main axis in place of their own they do not get their own bits.
   wrong.edits = {{"packet.h", "rays_of_axis(space->rays, &space->beam)", "WHOLE_PACKET"}};

@@ -17,24 +17,24 @@ mistake moller_trumbore() {
 
 mistake determinant_epsilon() {
   return of("determinant-epsilon", "triangles with |det| < 1e-5 count as parallel",
-            {{"triangle.h", "Mask met = is_within(u, v, w);",
-              "Mask met = is_within(u, v, w) & (fabs(det) >= 1e-5f);"}});
+            {{"triangle.h", "Mask is_hit = is_within(u, v, w);",
+              "Mask is_hit = is_within(u, v, w) & (fabs(det) >= 1e-5f * (r->unit * r->unit));"}});
 }
 
 mistake world_plane() {
   return of(
       "world-plane", "t comes from a plane equation about the world's origin",
       joined({with_direction(),
-              {{"triangle.h", "  Real t = top / det * r->t_of_unit;",
-                "  const Points p0 = swapped_corner(p, 0, r->axis), p1 = swapped_corner(p, 1, "
-                "r->axis),\n"
-                "               p2 = swapped_corner(p, 2, r->axis);\n"
+              {{"triangle.h", "  const Real t = fma(top / det, r->t_of_unit, in_all(0.0f));",
+                "  const Points p0 = swapped_corner(p, 0, r->order), p1 = swapped_corner(p, 1, "
+                "r->order),\n"
+                "               p2 = swapped_corner(p, 2, r->order);\n"
                 "  const Real ax = p1.x - p0.x, ay = p1.y - p0.y, az = p1.z - p0.z;\n"
                 "  const Real bx = p2.x - p0.x, by = p2.y - p0.y, bz = p2.z - p0.z;\n"
                 "  const Real nx = ay * bz - az * by, ny = az * bx - ax * bz, nz = ax * by - ay * "
                 "bx;\n"
-                "  const Points o = r->o, d = r->direction;\n"
-                "  Real t = (((nx * p0.x + ny * p0.y) + nz * p0.z) -\n"
+                "  const Points o = r->origin, d = r->direction;\n"
+                "  const Real t = (((nx * p0.x + ny * p0.y) + nz * p0.z) -\n"
                 "            ((nx * o.x + ny * o.y) + nz * o.z)) /\n"
                 "           ((nx * d.x + ny * d.y) + nz * d.z);"}}}));
 }
@@ -96,8 +96,9 @@ mistake short_leaves() {
 
 mistake open_points() {
   return of("open-points", "a determinant of 0 is a hit at the corner's distance",
-            {{"triangle.h", " & (det != 0.0f))", ")"},
-             {"triangle.h", "Real t = top / det *", "Real t = (det == 0.0f ? a.z : top / det) *"}});
+            {{"triangle.h", "have_side & (near <= far)", "near <= far"},
+             {"triangle.h", " & (hits->det != 0.0f);", ";"},
+             {"triangle.h", "fma(top / det,", "fma(det == 0.0f ? a.z : top / det,"}});
 }
 
 mistake constant_offset() {

@@ -9,6 +9,7 @@
 #include "study/cases/families.hpp"
 #include "study/cases/oracle.hpp"
 #include "study/cases/shapes.hpp"
+#include "study/kernel_edits.hpp"
 #include "tracer/features.hpp"
 
 namespace facet::study {
@@ -72,8 +73,7 @@ std::vector<way> ways(const lab& l, const scene& s, bool with_brute_force) {
   for (const layout_kind layout : {layout_kind::automatic, other_layout(l)}) {
     add("binned, buffer, t always held", tree_kind::binned, geometry_kind::buffer, 0, 0, false);
     all.back().options.layout = layout;
-    all.back().options.edits.push_back(
-        {"triangle.h", "is_held = met & !is_sure;", "is_held = met;"});
+    all.back().options.edits = always_held();
   }
   if (with_brute_force) {
     add("none, buffer, 64", tree_kind::none, geometry_kind::buffer, 0, 0, false);
