@@ -71,34 +71,36 @@ const char* const end_of_shares =
 }  // namespace
 
 kernel_edits with_direction() {
-  return {{"space.h", "  float3 o;  ", "  float3 direction, origin, o;"},
-          {"space.h", "  s->o = s->unit * o;\n",
-           "  s->o = s->unit * o;\n  s->direction = d;\n  s->origin = o;\n"},
-          {"space.h", "  Points o;  //", "  Points direction, origin, o;  //"},
-          {"space.h", "  r.shear_x = ",
-           "  r.direction = point_in_all(swapped(s->axis, s->direction));\n"
-           "  r.origin = point_in_all(swapped(s->axis, s->origin));\n  r.shear_x = "},
-          {"space.h", "  r->shear_x = ",
-           "  r->direction = main;\n  r->origin = swapped_points(axis, o);\n  r->shear_x = "},
-          {"space.h", "  s.axis = r->axis;\n",
-           "  s.direction = swapped(r->axis, point_in_lane(&r->direction, lane));\n"
-           "  s.origin = swapped(r->axis, point_in_lane(&r->origin, lane));\n  s.axis = r->axis;\n"},
-          // 1 / d_z is t_of_unit * unit, and rounded; the origin was scaled by a power of two.
-          {"stream.h", "  r.order.x = ray->order[0]",
-           "  r.origin = scaled_points(1.0f / r.unit, r.o);\n"
-           "  r.direction.z = 1.0f / (r.t_of_unit * r.unit);\n"
-           "  r.direction.x = r.shear_x * r.direction.z;\n"
-           "  r.direction.y = r.shear_y * r.direction.z;\n  r.order.x = ray->order[0]"}};
+  return {
+      {"space.h", "  float3 o;  ", "  float3 direction, origin, o;"},
+      {"space.h", "  s->o = s->unit * o;\n",
+       "  s->o = s->unit * o;\n  s->direction = d;\n  s->origin = o;\n"},
+      {"space.h", "  Points o;  //", "  Points direction, origin, o;  //"},
+      {"space.h", "  r.shear_x = ",
+       "  r.direction = point_in_all(swapped(s->axis, s->direction));\n"
+       "  r.origin = point_in_all(swapped(s->axis, s->origin));\n  r.shear_x = "},
+      {"space.h", "  r->shear_x = ",
+       "  r->direction = main;\n  r->origin = swapped_points(axis, o);\n  r->shear_x = "},
+      {"space.h", "  s.axis = r->axis;\n",
+       "  s.direction = swapped(r->axis, point_in_lane(&r->direction, lane));\n"
+       "  s.origin = swapped(r->axis, point_in_lane(&r->origin, lane));\n  s.axis = r->axis;\n"},
+      // 1 / d_z is t_of_unit * unit, and rounded; the origin was scaled by a power of two.
+      {"stream.h", "  r.order.x = ray->order[0]",
+       "  r.origin = scaled_points(1.0f / r.unit, r.o);\n"
+       "  r.direction.z = 1.0f / (r.t_of_unit * r.unit);\n"
+       "  r.direction.x = r.shear_x * r.direction.z;\n"
+       "  r.direction.y = r.shear_y * r.direction.z;\n  r.order.x = ray->order[0]"}};
 }
 
 kernel_edits moller_trumbore_test() {
-  return joined({with_direction(),
-                 {{"triangle.h", "INLINED Mask hit_triangles(", "static inline Mask unused_test("},
-                  {"triangle.h", "INLINED Mask may_be_within(", "static inline Mask unused_within("},
-                  {"triangle.h", "static inline float2 shares_in_slot(",
-                   "static inline float2 unused_shares("},
-                  {"triangle.h", std::string(end_of_shares) + "\n#endif\n",
-                   std::string(end_of_shares) + moller_trumbore}}});
+  return joined(
+      {with_direction(),
+       {{"triangle.h", "INLINED Mask hit_triangles(", "static inline Mask unused_test("},
+        {"triangle.h", "INLINED Mask may_be_within(", "static inline Mask unused_within("},
+        {"triangle.h", "static inline float2 shares_in_slot(",
+         "static inline float2 unused_shares("},
+        {"triangle.h", std::string(end_of_shares) + "\n#endif\n",
+         std::string(end_of_shares) + moller_trumbore}}});
 }
 
 kernel_edits unpadded_slabs() {

@@ -153,7 +153,9 @@ mistake short_stack() {
        {"search_wide.h", "stack[(*top)++] = max(a, b);",
         "if (*top < 4) stack[(*top)++] = max(a, b);"},
        {"search_wide.h", "int k = (*top)++;", "if (*top >= 4) continue;\n    int k = (*top)++;"},
-       {"search_wide.h", "stack[(*top)++] = next;", "if (*top < 4) stack[(*top)++] = next;"}});
+       {"search_wide.h", "stack[(*top)++] = next;", "if (*top < 4) stack[(*top)++] = next;"},
+       {"search_stream.h", "l->top += popcount(lanes);",
+        "l->top = min(l->top + (int)popcount(lanes), 4);"}});
 }
 
 mistake inclusive_edges() {
