@@ -51,8 +51,9 @@ struct space {
   int kx, ky, kz;  ///< kz: the direction's largest axis, which changes places with z
   bool turned;     ///< corners that turn left turn right in these axes
   T Sx, Sy;        ///< the shear that maps the direction to the z axis
-  T unit;       ///< 2^-e, e being the exponent of E: corners as seen from the origin stay below 2
-  T t_of_unit;  ///< 2^e / d_z: what a z of 1 is in t
+  T unit;         ///< 2^-e, e being the exponent of E: corners as seen from the origin stay below 2
+  T t_of_unit;    ///< 2^e / d_z: what a z of 1 is in t
+  vec3<T> start;  ///< the origin in units of 2^e
   vec3<T> inverse;  ///< 1 / direction, bounded
   vec3<T> reach;    ///< |origin| + the largest |coordinate| of the boxes, by axis
   T pad;            ///< what slabs are widened by, in units of length
@@ -74,6 +75,7 @@ struct space {
     const int exponent = std::ilogb(std::max(E, T(0x1p-60)));
     unit = std::ldexp(T(1), -exponent);
     t_of_unit = std::ldexp(1 / direction[kz], exponent);
+    start = unit * o;
     pad = 24 * unit_roundoff<T> * E;
     const T least = std::abs(direction[kz]) * T(0x1p-60);
     for (int i = 0; i < 3; ++i) {

@@ -25,7 +25,8 @@ struct sheared {
   T x, y, z;
 
   sheared(const space<T>& s, const vec3<T>& corner) {
-    const axes<T> a(s.unit * (corner - s.origin));
+    const axes<T> a({std::fma(s.unit, corner.x, -s.start.x), std::fma(s.unit, corner.y, -s.start.y),
+                     std::fma(s.unit, corner.z, -s.start.z)});
     x = std::fma(-s.Sx, a[s.kz], a[s.kx]);
     y = std::fma(-s.Sy, a[s.kz], a[s.ky]);
     z = a[s.kz];
