@@ -103,7 +103,8 @@ static inline Mask hold_to_boxes(const Rays* r, Triangles p, Intervals outer, Re
 // any axis, whatever the angle, for an error of t moves P within the triangle. The pad is 24u E.
 // Nothing overflows: in units of 2^e, which is at most E and more than E / 2, z are below 2, x and y below 4, edge
 // functions below 32. To underflow edge functions have lost no more than 2^-147, and the top 2^-145: with |det| >= 2^-100
-// P moves by less than 2^-44 E, and t by as much.
+// P moves by less than 2^-44 E, and t by as much. (Where all of a space and the ray's origin lie within 2^-84 of 0, t may
+// move by more than the pad, for space_of takes E for 2^-60 then.)
 INLINED Mask hit_triangles(const Rays* r, Triangles p, Intervals outer, Real tmin, Real tmax, bool count,
                            TriangleHits* hits) {
   const Points a = sheared(r, p, 0), b = sheared(r, p, 1), c = sheared(r, p, 2);
