@@ -1,8 +1,11 @@
 // Row `exactness`: what exact hits cost. The library's kernel against variants of it that leave out
 // what makes hits exact (study/variants), on one tree, the same rays, alternated in one run.
+#include <algorithm>
 #include <cstdio>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <numeric>
+#include <random>
 #include <span>
 
 #include "bench/measure.hpp"
@@ -50,21 +53,25 @@ struct rays_of {
   bool any;
 };
 
-/// Alternates all variants, slice by slice of the rays and each time from another one on, so that a
-/// slow spell of the machine meets all alike.
-void measure_round(const rays_of& r, std::vector<entry>& all, const settings& o) {
+/// Alternates all variants, slice by slice of the rays, so that a slow spell of the machine meets
+/// all alike, and each time in another order, so that none always finds what the same other one
+/// left.
+void measure_round(const rays_of& r, std::vector<entry>& all, const settings& o,
+                   std::mt19937& random) {
   const std::size_t count = r.rays.size(),
                     slices = std::min<std::size_t>(std::size_t(o.slices), count);
   std::vector<tracer::hit> strict;
+  std::vector<std::size_t> order(all.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
   for (entry& e : all) e.other_hits = 0;
   for (std::size_t k = 0; k <= std::size_t(o.repeat); ++k) {
     std::vector<double> ms(all.size());
     for (std::size_t slice = 0; slice < slices; ++slice) {
       const std::size_t from = slice * count / slices, to = (slice + 1) * count / slices;
       const std::span<const tracer::ray> some(r.rays.data() + from, to - from);
-      for (std::size_t turn = 0; turn < all.size(); ++turn) {
-        // The first pass warms up, and compares hits: in it strict comes first.
-        const std::size_t at = k == 0 ? turn : (turn + slice + k) % all.size();
+      // The first pass warms up, and compares hits: in it strict comes first.
+      if (k > 0) std::shuffle(order.begin(), order.end(), random);
+      for (const std::size_t at : order) {
         tracer::statistics s;
         const auto hits = all[at].on.trace(some, r.any, 1, &s);
         ms[at] += s.kernel_ms[0];
@@ -84,11 +91,12 @@ void measure_round(const rays_of& r, std::vector<entry>& all, const settings& o)
 /// the next, and would be taken for a variant's speed. A line and a JSON object for each.
 void measure(const std::string& mesh, const rays_of& r,
              const std::function<std::vector<entry>()>& made, const settings& o, json& results) {
+  std::mt19937 random(1);
   std::vector<entry> all = made();
-  measure_round(r, all, o);
+  measure_round(r, all, o, random);
   for (int round = 1; round < o.rounds; ++round) {
     std::vector<entry> again = made();
-    measure_round(r, again, o);
+    measure_round(r, again, o, random);
     for (std::size_t i = 0; i < all.size(); ++i)
       all[i].rates.insert(all[i].rates.end(), again[i].rates.begin(), again[i].rates.end());
   }

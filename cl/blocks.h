@@ -2,7 +2,7 @@
 //
 // It repeats corners of the block's first triangle: a, a, b. No ray meets it, by triangle.h. With the sheared
 // corners p, p, q the edge functions are those of (q, p) and (p, q), of opposite signs or both 0, and 0: either some
-// differ, or det is 0, for which no triangle is met. Where underflow makes a sign 0, |det| is below 2^-100, and
+// differ, or det is 0, for which no triangle is met. Where underflow makes a sign 0, |det| is below 2^-63, and
 // t is held, which refuses it.
 #ifndef FACET_BLOCKS_H
 #define FACET_BLOCKS_H

@@ -126,4 +126,13 @@ static inline Points map_points(__global const float* m, Points v) {
 
 static inline bool is_none(Mask m) { return lanes_where(m) == 0u; }
 
+// Whether |x| < 2^-63: in vectors by the two highest bits of the exponent, which is one instruction for two.
+static inline Mask is_tiny(Real x) {
+#ifdef FACET_WIDE
+  return (as_int8(x) & 0x60000000) == 0;
+#else
+  return fabs(x) < 0x1p-63f;
+#endif
+}
+
 #endif

@@ -128,9 +128,8 @@ static inline bool meet_triangles(const Scene* s, GEOMETRY positions, const Spac
   const Triangles triangles = triangles_from(positions, first);
   const Real from = in_all(tmin), to = in_all(q->t);
   const Mask met = hit_triangles(&ray, triangles, each, from, to, mode == FACET_CROSSINGS, &hits);
-  uint left = lanes_where(met);
-  if (left == 0u) return false;
-  left = lanes_where(settle_doubts(&ray, positions, triangles, each, from, to, met, &hits));
+  if (is_none(met | hits.is_doubtful)) return false;
+  uint left = lanes_where(settle_doubts(&ray, positions, triangles, each, from, to, met, &hits));
   for (; left != 0u; left = without_first(left)) {
     const uint lane = first_lane(left);
     const bool is_crossing = mode == FACET_CROSSINGS;

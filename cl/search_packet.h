@@ -110,10 +110,10 @@ static inline void meet_one(const Scene* s, GEOMETRY positions, PacketPart* p, c
   if (is_none(may_be_within(r, one))) return;
   TriangleHits hits;
   Mask met = hit_triangles(r, one, outer, p->tmin, p->t, mode == FACET_CROSSINGS, &hits);
-  if (is_none(met)) return;
+  if (is_none(met | hits.is_doubtful)) return;
   // One branch for what is rare.
-  const Mask may_tie = mode == FACET_CLOSEST ? hits.t == p->t : (Mask)(0);
-  if (!is_none(met & (hits.is_doubtful | may_tie))) {
+  const Mask may_tie = mode == FACET_CLOSEST ? met & (hits.t == p->t) : (Mask)(0);
+  if (!is_none(hits.is_doubtful | may_tie)) {
     met = settle_doubts(r, positions, one, outer, p->tmin, p->t, met, &hits);
     const uint tied = mode == FACET_CLOSEST ? lanes_of(met & (hits.t == p->t)) : 0u;
     if (tied != 0u) met &= ~keep_of(s, p, place, slot, tied);

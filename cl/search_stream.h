@@ -128,11 +128,16 @@ static inline void enter_node(const Scene* s, GEOMETRY positions, __global Strea
 
 APART void meet_leaf(const Scene* s, GEOMETRY positions, __global Stream* x, uint block, uint begin, uint count,
                      uint mode) {
+  Mask doubtful = (Mask)(0);
   for (uint i = begin; i < begin + count; ++i) {
     const uint ray = x->list[i];
     if (mode == FACET_ANY && x->ray[ray].slot != FACET_NONE) continue;
-    meet_block_alone(s, positions, block, &x->ray[ray], &x->rest[ray], mode);
+    meet_block_alone(s, positions, block, &x->ray[ray], &x->rest[ray], mode, &doubtful);
   }
+  // Asked of all rays at once: hardly ever is there any doubt.
+  if (is_none(doubtful)) return;
+  for (uint i = begin; i < begin + count; ++i)
+    settle_block_alone(s, positions, block, &x->ray[x->list[i]], &x->rest[x->list[i]], mode);
 }
 
 // Depth first: so the lists that wait lie in memory as their children's do on the stack, and a list's place is free

@@ -77,10 +77,8 @@ static inline Points point_from(__global const float* a) {
   return p;
 }
 
-// A block's triangles and a ray that has not met them yet.
-INLINED void meet_block_alone(const Scene* s, GEOMETRY positions, uint block, __global StreamRay* ray,
-                              __global StreamRest* rest, uint mode) {
-  const Intervals outer = {in_all(-INFINITY), in_all(INFINITY)};
+// The ray in all lanes.
+static inline Rays rays_in_stream(__global const StreamRay* ray, __global const StreamRest* rest) {
   Rays r;
   r.o = point_from(ray->origin);
   r.shear_x = in_all(rest->shear[0]);
@@ -91,13 +89,12 @@ INLINED void meet_block_alone(const Scene* s, GEOMETRY positions, uint block, __
   r.near_offset = point_from(ray->near_offset);
   r.far_offset = point_from(ray->far_offset);
   r.order.x = ray->order[0], r.order.y = ray->order[1], r.order.z = ray->order[2];
-  TriangleHits hits;
-  const Triangles triangles = triangles_from(positions, block);
-  const Real from = in_all(ray->tmin), to = in_all(ray->t);
-  const Mask met = hit_triangles(&r, triangles, outer, from, to, false, &hits);
-  uint left = lanes_of(met);
-  if (left == 0u) return;
-  left = lanes_of(settle_doubts(&r, positions, triangles, outer, from, to, met, &hits));
+  return r;
+}
+
+// Takes in that the ray meets the triangles of a block in the lanes `left`.
+INLINED void take_lanes(const Scene* s, uint block, const TriangleHits* hits, uint left, __global StreamRay* ray,
+                        __global StreamRest* rest, uint mode) {
   if (left != 0u && mode == FACET_ANY) {
     ray->t = -INFINITY;
     ray->slot = 0u;
@@ -105,14 +102,40 @@ INLINED void meet_block_alone(const Scene* s, GEOMETRY positions, uint block, __
   }
   for (; left != 0u; left = without_first(left)) {
     const uint lane = first_lane(left), slot = FACET_LANES * block + lane, best = ray->slot;
-    const float t = in_lane(hits.t, lane);
+    const float t = in_lane(hits->t, lane);
     if (t >= ray->t && (t > ray->t || (best != FACET_NONE && !is_before(s, 0u, slot, 0u, best)))) continue;
     ray->t = t;
     ray->slot = slot;
-    rest->v = in_lane(hits.v, lane);
-    rest->w = in_lane(hits.w, lane);
-    rest->det = in_lane(hits.det, lane);
+    rest->v = in_lane(hits->v, lane);
+    rest->w = in_lane(hits->w, lane);
+    rest->det = in_lane(hits->det, lane);
   }
+}
+
+// A block's triangles and a ray. Those that are doubtful are left, and added to `doubtful`.
+INLINED void meet_block_alone(const Scene* s, GEOMETRY positions, uint block, __global StreamRay* ray,
+                              __global StreamRest* rest, uint mode, Mask* doubtful) {
+  const Intervals outer = {in_all(-INFINITY), in_all(INFINITY)};
+  const Rays r = rays_in_stream(ray, rest);
+  TriangleHits hits;
+  const Mask met =
+      hit_triangles(&r, triangles_from(positions, block), outer, in_all(ray->tmin), in_all(ray->t), false, &hits);
+  *doubtful |= hits.is_doubtful;
+  const uint left = lanes_of(met);
+  if (left != 0u) take_lanes(s, block, &hits, left & ~lanes_of(hits.is_doubtful), ray, rest, mode);
+}
+
+// The same of the doubtful ones, too. That some are taken in again changes nothing.
+APART void settle_block_alone(const Scene* s, GEOMETRY positions, uint block, __global StreamRay* ray,
+                              __global StreamRest* rest, uint mode) {
+  const Intervals outer = {in_all(-INFINITY), in_all(INFINITY)};
+  const Rays r = rays_in_stream(ray, rest);
+  const Triangles triangles = triangles_from(positions, block);
+  const Real from = in_all(ray->tmin), to = in_all(ray->t);
+  TriangleHits hits;
+  const Mask met = hit_triangles(&r, triangles, outer, from, to, false, &hits);
+  take_lanes(s, block, &hits, lanes_of(settle_doubts(&r, positions, triangles, outer, from, to, met, &hits)), ray, rest,
+             mode);
 }
 
 #endif

@@ -59,7 +59,7 @@ typedef struct {
   Real v, w, det;   // shares of the second and third corner, in units of det
   Mask is_front;    // the ray enters through the side on which the corners turn counter-clockwise
   Mask is_counted;  // this triangle, not a neighbour, owns the edge or corner that is met
-  Mask is_doubtful; // t is to be held to boxes
+  Mask is_doubtful; // the ray passes within the edges, and t is to be held to boxes first
 } TriangleHits;
 
 // Along one axis, where a ray enters a triangle's box, or with the other side first leaves it.
@@ -91,8 +91,8 @@ static inline Mask hold_to_boxes(const Rays* r, Triangles p, Intervals outer, Re
 
 // The lanes whose rays meet their triangles with t in tmin..tmax; the edges belong to the triangle. A literal:
 // `count`, whether is_front and is_counted are asked for. t lies in the interval of the triangle's own box and in
-// `outer`, that of its instance's box in the world, once settle_doubts has gone over them: that is for the caller to do,
-// so that few instructions come before the branch that most triangles take.
+// `outer`, that of its instance's box in the world. Of those that are doubtful nothing is said: the caller calls
+// settle_doubts if there are any, so that few instructions come before the branch that most triangles take.
 //
 // It does so by itself, unless an underflow or an instance's maps come between. With u, v, w as they
 // come out, each within 2u of the edge function of the sheared corners, b = u / (u+v+w) and so on are
@@ -102,8 +102,8 @@ static inline Mask hold_to_boxes(const Rays* r, Triangles p, Intervals outer, Re
 // and its quotient by 6u, 1 / d_z and its product by 2u). The slabs are off by 4u E: together 22u E, on
 // any axis, whatever the angle, for an error of t moves P within the triangle. The pad is 24u E.
 // Nothing overflows: in units of 2^e, which is at most E and more than E / 2, z are below 2, x and y below 4, edge
-// functions below 32. To underflow edge functions have lost no more than 2^-147, and the top 2^-145: with |det| >= 2^-100
-// P moves by less than 2^-44 E, and t by as much. (Where all of a space and the ray's origin lie within 2^-84 of 0, t may
+// functions below 32. To underflow edge functions have lost no more than 2^-147, and the top 2^-145: with |det| >= 2^-63
+// P moves by less than 2^-80 E, and t by as much. (Where all of a space and the ray's origin lie within 2^-118 of 0, t may
 // move by more than the pad, for space_of takes E for 2^-60 then.)
 INLINED Mask hit_triangles(const Rays* r, Triangles p, Intervals outer, Real tmin, Real tmax, bool count,
                            TriangleHits* hits) {
@@ -112,35 +112,38 @@ INLINED Mask hit_triangles(const Rays* r, Triangles p, Intervals outer, Real tmi
   const Real det = (u + v) + w;
   const Mask is_hit = is_within(u, v, w);
   // A branch is worth it for one alone.
-  if (FACET_LANES == 1u && is_none(is_hit)) return is_hit;
+  if (FACET_LANES == 1u && is_none(is_hit)) {
+    hits->is_doubtful = is_hit;
+    return is_hit;
+  }
   const Real top = fma(w, c.z, fma(v, b.z, u * a.z));
   // The product, with one zero.
   const Real t = fma(top / det, r->t_of_unit, in_all(0.0f));
-  Mask is_doubtful = fabs(det) < 0x1p-100f;
+  Mask is_doubtful = is_tiny(det);
 #ifndef FACET_NO_INSTANCES
   // Else `outer` holds everything.
   is_doubtful |= (t < outer.near) | (t > outer.far);
 #endif
   hits->t = t;
-  hits->is_doubtful = is_doubtful;
+  hits->is_doubtful = is_hit & is_doubtful;
   hits->v = v, hits->w = w, hits->det = det;
   if (count) {
     const Real su = edge_sign(u, c, b), sv = edge_sign(v, a, c), sw = edge_sign(w, b, a);
     hits->is_counted = ((su > 0.0f) & (sv > 0.0f) & (sw > 0.0f)) | ((su < 0.0f) & (sv < 0.0f) & (sw < 0.0f));
     hits->is_front = r->is_turned ? !(su > 0.0f) : su > 0.0f;
   }
-  return is_hit & (((t >= tmin) & (t <= tmax)) | is_doubtful);
+  return is_hit & (t >= tmin) & (t <= tmax);
 }
 
-// Of the lanes that hit_triangles has found, those that meet their triangles.
+// The lanes that meet their triangles, given those that do as hit_triangles has it.
 INLINED Mask settle_doubts(const Rays* r, GEOMETRY positions, Triangles p, Intervals outer, Real tmin, Real tmax,
                            Mask met, TriangleHits* hits) {
-  const Mask is_held = met & hits->is_doubtful;
+  const Mask is_held = hits->is_doubtful;
   if (is_none(is_held)) return met;
   Real held = hits->t;
   const Mask is_kept = hold_to_boxes(r, read_again(positions, p), outer, &held) & (hits->det != 0.0f);
   hits->t = is_held ? held : hits->t;
-  return met & (!is_held | (is_kept & (held >= tmin) & (held <= tmax)));
+  return is_held ? is_kept & (held >= tmin) & (held <= tmax) : met;
 }
 
 // Where the ray meets the triangle in a slot, which hit_triangles has accepted: the hit's u and v, the shares

@@ -28,7 +28,10 @@ typedef struct {
 static inline bool walk_on(const Scene* s, GEOMETRY positions, Walk* w, uint mode) {
   __global StreamRay* r = w->ray;
   if (w->node & FACET_LEAF_BIT) {
-    meet_block_alone(s, positions, FACET_LEAF_FIRST(w->node), r, w->rest, mode);
+    const uint block = FACET_LEAF_FIRST(w->node);
+    Mask doubtful = (Mask)(0);
+    meet_block_alone(s, positions, block, r, w->rest, mode, &doubtful);
+    if (!is_none(doubtful)) settle_block_alone(s, positions, block, r, w->rest, mode);
   } else {
     __global const WideNode* n = s->nodes + w->node;
     Slabs slabs;

@@ -33,6 +33,7 @@ static inline Mask may_be_within(const Rays* r, Triangles t) { return (Mask)(-1)
 INLINED Mask hit_triangles(const Rays* r, Triangles t, Intervals outer, Real tmin, Real tmax, bool count,
                            TriangleHits* hits) {
   Points e1, e2;
+  hits->is_doubtful = (Mask)(0);
   const Points p0 = first_corner(t, r, &e1, &e2), d = r->direction;
   const Points p = cross_each(d, e2), o = less(r->origin, p0);
   const Real inverse = 1.0f / dot_each(e1, p);
@@ -47,7 +48,6 @@ INLINED Mask hit_triangles(const Rays* r, Triangles t, Intervals outer, Real tmi
   hits->v = u, hits->w = v, hits->det = in_all(1.0f);
   hits->is_front = r->axis == 2u ? inverse > 0.0f : inverse < 0.0f;
   hits->is_counted = met;
-  hits->is_doubtful = (Mask)(0);
   return met & (hits->t >= tmin) & (hits->t <= tmax);
 }
 
@@ -110,8 +110,8 @@ kernel_edits unpadded_slabs() {
 }
 
 kernel_edits always_held() {
-  return {{"triangle.h", "| is_doubtful);", "| is_hit);"},
-          {"triangle.h", "is_held = met & hits->is_doubtful;", "is_held = met;"}};
+  return {
+      {"triangle.h", "hits->is_doubtful = is_hit & is_doubtful;", "hits->is_doubtful = is_hit;"}};
 }
 
 kernel_edits rounded_edges() {

@@ -11,14 +11,14 @@ kernel_edits unordered() {
        "t >= q->t && (t > q->t || (q->slot != FACET_NONE && !is_before(s, place, slot, q->place, "
        "q->slot)))",
        "t >= q->t"},
-      {"search_packet.h", "mode == FACET_CLOSEST ? hits.t == p->t", "false ? hits.t == p->t"},
+      {"search_packet.h", "mode == FACET_CLOSEST ? met & (hits.t", "false ? met & (hits.t"},
       {"stream.h", "t > ray->t || (best != FACET_NONE && !is_before(s, 0u, slot, 0u, best))",
        "true"}};
 }
 
 kernel_edits unheld() {
-  return {{"triangle.h", "hits->is_doubtful = is_doubtful;", "hits->is_doubtful = (Mask)(0);"},
-          {"triangle.h", "| is_doubtful);", ");"}};
+  return {{"triangle.h", "hits->is_doubtful = is_hit & is_doubtful;",
+           "hits->is_doubtful = (Mask)(0);"}};
 }
 
 kernel_edits unchecked() {
