@@ -5,6 +5,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <optional>
 #include <random>
 #include <span>
 
@@ -22,6 +23,8 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
+constexpr const char* inexact = "inexact";
+
 struct settings {
   std::vector<std::string> meshes{"terrain:1000", "soup:1000000"};
   std::string device = "0", flags, kernels, json;
@@ -32,8 +35,7 @@ struct settings {
 
 struct entry {
   study::variant what;
-  tracer::device_scene on;
-  bool is_inexact = false;       ///< it has no guard at all
+  const char* kind;              ///< "strict", the first; "inexact": without a guard; "one guard"
   std::vector<double> rates{};   ///< Mrays/s
   std::uint64_t other_hits = 0;  ///< than the strict kernel's: triangle or miss
 };
@@ -53,16 +55,23 @@ struct rays_of {
   bool any;
 };
 
+using scenes = std::vector<std::optional<tracer::device_scene>>;
+
+std::vector<std::size_t> indices(std::size_t count) {
+  std::vector<std::size_t> all(count);
+  std::iota(all.begin(), all.end(), std::size_t(0));
+  return all;
+}
+
 /// Alternates all variants, slice by slice of the rays, so that a slow spell of the machine meets
 /// all alike, and each time in another order, so that none always finds what the same other one
 /// left.
-void measure_round(const rays_of& r, std::vector<entry>& all, const settings& o,
+void measure_round(const rays_of& r, std::vector<entry>& all, scenes& on, const settings& o,
                    std::mt19937& random) {
   const std::size_t count = r.rays.size(),
                     slices = std::min<std::size_t>(std::size_t(o.slices), count);
   std::vector<tracer::hit> strict;
-  std::vector<std::size_t> order(all.size());
-  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::vector<std::size_t> order = indices(all.size());
   for (entry& e : all) e.other_hits = 0;
   for (std::size_t k = 0; k <= std::size_t(o.repeat); ++k) {
     std::vector<double> ms(all.size());
@@ -73,7 +82,7 @@ void measure_round(const rays_of& r, std::vector<entry>& all, const settings& o,
       if (k > 0) std::shuffle(order.begin(), order.end(), random);
       for (const std::size_t at : order) {
         tracer::statistics s;
-        const auto hits = all[at].on.trace(some, r.any, 1, &s);
+        const auto hits = on[at]->trace(some, r.any, 1, &s);
         ms[at] += s.kernel_ms[0];
         if (k > 0) continue;
         if (at == 0) strict = hits;
@@ -87,24 +96,25 @@ void measure_round(const rays_of& r, std::vector<entry>& all, const settings& o,
   }
 }
 
-/// All variants made anew in each round: what lies in a cache beside what differs from one time to
-/// the next, and would be taken for a variant's speed. A line and a JSON object for each.
-void measure(const std::string& mesh, const rays_of& r,
-             const std::function<std::vector<entry>()>& made, const settings& o, json& results) {
+/// All variants made anew in each round, in any order: what lies in a cache beside what differs
+/// from one time to the next, and would be taken for a variant's speed. A line and a JSON object
+/// for each.
+void measure(const std::string& mesh, const rays_of& r, std::vector<entry> all,
+             const std::function<tracer::device_scene(const study::variant&)>& made,
+             const settings& o, json& results) {
   std::mt19937 random(1);
-  std::vector<entry> all = made();
-  measure_round(r, all, o, random);
-  for (int round = 1; round < o.rounds; ++round) {
-    std::vector<entry> again = made();
-    measure_round(r, again, o, random);
-    for (std::size_t i = 0; i < all.size(); ++i)
-      all[i].rates.insert(all[i].rates.end(), again[i].rates.begin(), again[i].rates.end());
+  for (int round = 0; round < o.rounds; ++round) {
+    scenes on(all.size());
+    std::vector<std::size_t> order = indices(all.size());
+    std::shuffle(order.begin(), order.end(), random);
+    for (const std::size_t i : order) on[i].emplace(made(all[i].what));
+    measure_round(r, all, on, o, random);
   }
   // The fastest is chosen by one half of the repeats and judged by the other: were both the same,
   // the luckiest of them would pass for the fastest. Rates are compared within a repeat.
   const entry* fastest = nullptr;
   for (const entry& e : all)
-    if (e.is_inexact &&
+    if (e.kind == inexact &&
         (!fastest || median(every_other(e.rates, 0)) > median(every_other(fastest->rates, 0))))
       fastest = &e;
   for (entry& e : all) {
@@ -122,9 +132,7 @@ void measure(const std::string& mesh, const rays_of& r,
                        {"rays", r.kind},
                        {"count", r.rays.size()},
                        {"variant", e.what.name},
-                       {"kind", e.is_inexact    ? "inexact"
-                                : &e == &all[0] ? "strict"
-                                                : "one guard"},
+                       {"kind", e.kind},
                        {"mrays_per_s", s.median},
                        {"mrays_per_s_all", e.rates},
                        {"fastest_inexact", fastest->what.name},
@@ -153,15 +161,12 @@ void run(const settings& o) {
     options.compiler_flags = o.flags;
     options.streams = o.streams;
     options.kernel_folder = o.kernels;
-    const auto made = [&] {
-      std::vector<entry> all;
-      all.push_back({{"strict", "the library's kernel"}, tracer::device_scene(queue, s, options)});
-      for (const study::variant& v : study::inexact_variants())
-        all.push_back({v, tracer::device_scene(queue, s, study::with(v, options)), true});
-      for (const study::variant& v :
-           o.with_guards ? study::single_guards() : std::vector<study::variant>())
-        all.push_back({v, tracer::device_scene(queue, s, study::with(v, options))});
-      return all;
+    std::vector<entry> all{{{"strict", "the library's kernel"}, "strict"}};
+    for (const study::variant& v : study::inexact_variants()) all.push_back({v, inexact});
+    if (o.with_guards)
+      for (const study::variant& v : study::single_guards()) all.push_back({v, "one guard"});
+    const auto made = [&](const study::variant& v) {
+      return tracer::device_scene(queue, s, study::with(v, options));
     };
     std::vector<hit> met;
     for (const tracer::hit& h : tracer::device_scene(queue, s, options).trace(packed(primary)))
@@ -170,7 +175,7 @@ void run(const settings& o) {
          {rays_of{"primary", packed(primary), false},
           rays_of{"shadow", packed(shadow_rays(s.meshes[0], primary, met)), true},
           rays_of{"bounce", packed(bounce_rays(s.meshes[0], primary, met)), false}})
-      measure(name, r, made, o, report["results"]);
+      measure(name, r, all, made, o, report["results"]);
   }
   if (!o.json.empty()) write_result(o.json, report);
 }
