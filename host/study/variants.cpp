@@ -11,7 +11,7 @@ kernel_edits unordered() {
        "t >= q->t && (t > q->t || (q->slot != FACET_NONE && !is_before(s, place, slot, q->place, "
        "q->slot)))",
        "t >= q->t"},
-      {"search_packet.h", "mode == FACET_CLOSEST ? met & (hits.t", "false ? met & (hits.t"},
+      {"packet_hits.h", "mode == FACET_CLOSEST ? met & (hits.t", "false ? met & (hits.t"},
       {"stream.h", "t > ray->t || (best != FACET_NONE && !is_before(s, 0u, slot, 0u, best))",
        "true"}};
 }

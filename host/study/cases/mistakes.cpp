@@ -62,7 +62,7 @@ mistake no_tie_break() {
   return of(
       "no-tie-break", "of equal distances the first one met wins",
       {{"query.h", "!is_before(s, place, slot, q->place, q->slot)", "true"},
-       {"search_packet.h", " || is_before(s, place, slot, place_in_lane(p, lane), best) ?", " ?"}});
+       {"packet_hits.h", " || is_before(s, place, slot, place_in_lane(p, lane), best) ?", " ?"}});
 }
 
 mistake truncated_nodes() {
