@@ -119,6 +119,32 @@ TEST_CASE("streams: a list that has no room left goes on ray by ray") {
   CHECK(differing_from_reference(s, rays, apart) > 0);
 }
 
+TEST_CASE("streams: triangles too small for t to be sure of are met, in lists and alone") {
+  if (is_skipped()) return;
+  // Twice their areas are some 2^-80 in units of E^2 (triangle.h: is_tiny), E being that of one
+  // large triangle that nothing meets.
+  mesh m = test::random_soup(300, 2);
+  for (vec3f& p : m.positions) p = p * 0x1p-40f;
+  for (const vec3f p : {vec3f{1, 1, 1}, {1, 1, 0.9f}, {1, 0.9f, 1}}) {
+    m.indices.push_back(std::uint32_t(m.positions.size()));
+    m.positions.push_back(p);
+  }
+  const scene s = test::one_mesh(m);
+  auto rays = scattered_rays(4000, 8);
+  for (ray& r : rays)
+    for (float* o : {&r.origin[0], &r.origin[1], &r.origin[2]}) *o *= 0x1p-40f;
+  CHECK(differing_from_reference(s, rays, in_streams()) == 0);
+  CHECK(hits_of(s, rays, in_streams()) > rays.size() / 8);
+  const tracer::kernel_edit all_alone{"search_stream.h", "sum_of(counts) > FACET_LISTS",
+                                      "sum_of(counts) + 1u > 0u"};
+  CHECK(differing_from_reference(s, rays, with({all_alone})) == 0);
+  // Doubts that are never settled lose hits.
+  CHECK(differing_from_reference(
+            s, rays, with({{"search_stream.h", "if (is_none(doubtful)) return;", "return;"}})) > 0);
+  CHECK(differing_from_reference(
+            s, rays, with({all_alone, {"walk.h", "if (!is_none(doubtful))", "if (false)"}})) > 0);
+}
+
 TEST_CASE("streams: rays that are odd or cannot be used are as they are by themselves") {
   if (is_skipped()) return;
   const mesh m = test::random_soup(500, 3);
