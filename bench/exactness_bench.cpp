@@ -8,6 +8,7 @@
 #include <optional>
 #include <random>
 #include <span>
+#include <string>
 
 #include "bench/measure.hpp"
 #include "bench/result_file.hpp"
@@ -23,8 +24,6 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-constexpr const char* inexact = "inexact";
-
 struct settings {
   std::vector<std::string> meshes{"terrain:1000", "soup:1000000"};
   std::string device = "0", flags, kernels, json;
@@ -35,7 +34,7 @@ struct settings {
 
 struct entry {
   study::variant what;
-  const char* kind;              ///< "strict", the first; "inexact": without a guard; "one guard"
+  std::string kind;              ///< "strict", the first; "inexact": without a guard; "one guard"
   std::vector<double> rates{};   ///< Mrays/s
   std::uint64_t other_hits = 0;  ///< than the strict kernel's: triangle or miss
 };
@@ -114,7 +113,7 @@ void measure(const std::string& mesh, const rays_of& r, std::vector<entry> all,
   // the luckiest of them would pass for the fastest. Rates are compared within a repeat.
   const entry* fastest = nullptr;
   for (const entry& e : all)
-    if (e.kind == inexact &&
+    if (e.kind == "inexact" &&
         (!fastest || median(every_other(e.rates, 0)) > median(every_other(fastest->rates, 0))))
       fastest = &e;
   for (entry& e : all) {
@@ -162,7 +161,7 @@ void run(const settings& o) {
     options.streams = o.streams;
     options.kernel_folder = o.kernels;
     std::vector<entry> all{{{"strict", "the library's kernel"}, "strict"}};
-    for (const study::variant& v : study::inexact_variants()) all.push_back({v, inexact});
+    for (const study::variant& v : study::inexact_variants()) all.push_back({v, "inexact"});
     if (o.with_guards)
       for (const study::variant& v : study::single_guards()) all.push_back({v, "one guard"});
     const auto made = [&](const study::variant& v) {

@@ -121,8 +121,8 @@ TEST_CASE("streams: a list that has no room left goes on ray by ray") {
 
 TEST_CASE("streams: triangles too small for t to be sure of are met, in lists and alone") {
   if (is_skipped()) return;
-  // Twice their areas are some 2^-80 in units of E^2 (triangle.h: is_tiny), E being that of one
-  // large triangle that nothing meets.
+  // Twice their areas are some 2^-80 in units of E^2 (triangle.h: is_tiny), for E is that of one
+  // large triangle beside them.
   mesh m = test::random_soup(300, 2);
   for (vec3f& p : m.positions) p = p * 0x1p-40f;
   for (const vec3f p : {vec3f{1, 1, 1}, {1, 1, 0.9f}, {1, 0.9f, 1}}) {
