@@ -36,16 +36,28 @@ static inline void read_normals(GEOMETRY g, uint slot, float3* n0, float3* n1, f
 
 #ifdef FACET_WIDE
 
+// Where a corner's coordinates lie that stand in x's, y's and z's place, the main axis in z's: floats to skip.
+typedef struct {
+  uint x, y, z;
+} Order;
+
+static inline Order order_of(uint axis) {
+  const Order o = {FACET_BLOCK * (axis == 0u ? 2u : 0u), FACET_BLOCK * (axis == 1u ? 2u : 1u), FACET_BLOCK * axis};
+  return o;
+}
+
 // What is tested at once: a block's triangles (layout.h: TriangleBlock), or one of them in all lanes.
 typedef struct {
   __global const float* first;
-  bool is_one;  // a literal
+  bool is_one, is_mixed;  // literals
+  Mask others;            // if mixed: lanes that see corners in another order than that of their rays
+  Order of_others;
 } Triangles;
 
 static inline Triangles triangles_from(GEOMETRY g, uint block) {
   Triangles t;
   t.first = (__global const float*)((__global const TriangleBlock*)g + block);
-  t.is_one = false;
+  t.is_one = t.is_mixed = false;
   return t;
 }
 
@@ -56,6 +68,16 @@ static inline Triangles one_triangle(Triangles block, uint lane) {
   Triangles t;
   t.first = block.first + lane;
   t.is_one = true;
+  t.is_mixed = false;
+  return t;
+}
+
+// The same, seen along two main axes.
+static inline Triangles mixed_triangle(Triangles block, uint lane, Mask others, uint axis) {
+  Triangles t = one_triangle(block, lane);
+  t.is_mixed = true;
+  t.others = others;
+  t.of_others = order_of(axis);
   return t;
 }
 
@@ -72,30 +94,19 @@ static inline Real coordinate(Triangles t, uint skipped) {
   return t.is_one ? (Real)(*at) : *(__global const Real*)at;
 }
 
-static inline Points points_of(Triangles t, int corner) {
-  Points p;
-  p.x = coordinate(t, FACET_BLOCK * (3 * corner));
-  p.y = coordinate(t, FACET_BLOCK * (3 * corner + 1));
-  p.z = coordinate(t, FACET_BLOCK * (3 * corner + 2));
-  return p;
-}
-
-// Where a corner's coordinates lie that stand in x's, y's and z's place, the main axis in z's: floats to skip.
-typedef struct {
-  uint x, y, z;
-} Order;
-
-static inline Order order_of(uint axis) {
-  const Order o = {FACET_BLOCK * (axis == 0u ? 2u : 0u), FACET_BLOCK * (axis == 1u ? 2u : 1u), FACET_BLOCK * axis};
-  return o;
-}
-
-static inline Points swapped_corner(Triangles t, int corner, Order order) {
+static inline Points corner_in(Triangles t, int corner, Order order) {
   Points p;
   p.x = coordinate(t, FACET_BLOCK * 3 * corner + order.x);
   p.y = coordinate(t, FACET_BLOCK * 3 * corner + order.y);
   p.z = coordinate(t, FACET_BLOCK * 3 * corner + order.z);
   return p;
+}
+
+static inline Points points_of(Triangles t, int corner) { return corner_in(t, corner, order_of(2u)); }
+
+static inline Points swapped_corner(Triangles t, int corner, Order order) {
+  const Points p = corner_in(t, corner, order);
+  return t.is_mixed ? chosen_points(t.others, corner_in(t, corner, t.of_others), p) : p;
 }
 
 #else

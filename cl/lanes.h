@@ -41,6 +41,15 @@ static inline Points larger_points(Points a, Points bound) {
   return p;
 }
 
+// `a` where that holds, `b` elsewhere.
+static inline Points chosen_points(Mask where, Points a, Points b) {
+  Points p;
+  p.x = where ? a.x : b.x;
+  p.y = where ? a.y : b.y;
+  p.z = where ? a.z : b.z;
+  return p;
+}
+
 static inline Points scaled_points(Real by, Points a) {
   Points p;
   p.x = by * a.x;
@@ -65,6 +74,7 @@ static inline Points swapped_points(uint axis, Points a) {
 
 #ifdef FACET_WIDE
 static inline uint lanes_where(Mask m) { return lanes_of(m); }
+static inline Mask in_mask(bool b) { return (Mask)(b ? -1 : 0); }
 static inline Real in_all(float x) { return (Real)(x); }
 static inline float in_lane(Real x, uint lane) {
   float all[FACET_LANES];
@@ -92,6 +102,7 @@ static inline float3 point_in_lane(const Points* p, uint lane) {
 }
 #else
 static inline uint lanes_where(Mask m) { return m ? 1u : 0u; }
+static inline Mask in_mask(bool b) { return b; }
 static inline Real in_all(float x) { return x; }
 static inline float in_lane(Real x, uint lane) { return x; }
 static inline bool is_in(Mask m, uint lane) { return m; }

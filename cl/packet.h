@@ -32,14 +32,24 @@ typedef struct {
 #endif
   Beam beam;
   uint place;  // FACET_NONE: the world
+  // Rays with another main axis than that of `rays`, and which. Triangles ask for it, boxes do not.
+  uint others, axis_of_others;
 } PacketSpace;
 
+static inline uint axis_in_lane(const PacketSpace* in, uint part, uint lane) {
+  return in->others >> (FACET_LANES * part + lane) & 1u ? in->axis_of_others : in->rays[part].axis;
+}
+
+static inline float3 direction_of(const PacketPart* part, uint ray) {
+  return point_in_lane(&part[ray / FACET_LANES].d, ray % FACET_LANES);
+}
+
 // Whether on any axis a sign is another than that direction's.
-static inline bool do_signs_differ(const Points* d, float3 than) {
+static inline bool do_signs_differ(const PacketPart* part, float3 than) {
   Mask differing = (Mask)(0);
   for (uint k = 0u; k < FACET_PARTS; ++k)
-    differing |= (as_int8(d[k].x) ^ as_int(than.x)) | (as_int8(d[k].y) ^ as_int(than.y)) |
-                 (as_int8(d[k].z) ^ as_int(than.z));
+    differing |= (as_int8(part[k].d.x) ^ as_int(than.x)) | (as_int8(part[k].d.y) ^ as_int(than.y)) |
+                 (as_int8(part[k].d.z) ^ as_int(than.z));
   return !is_none(differing < 0);
 }
 
@@ -113,54 +123,63 @@ static inline bool can_go_together(const PacketPart* part, float3 reach) {
 // Rays of a packet are told by a bit each.
 #define WHOLE_PACKET 0xffffffffu
 
-// Those whose main axis is the packet's, and by more than rounding. Each ray's inverse is least on its main axis: if
-// theirs is, none is more than the largest on any one axis.
-static inline uint rays_of_axis(const Rays* rays, const Beam* b) {
-  const int4 flat = are_flat(b);
-  uint which = 0u;
-  if (is_none((Mask)(flat, flat))) return 0u;
-  for (uint k = 0u; k < FACET_PARTS; ++k)
-    which |= lanes_of((fabs(rays[k].shear_x) < 1.0f) & (fabs(rays[k].shear_y) < 1.0f)) << FACET_LANES * k;
-  return which;
+// Those whose main axis is the one that they are seen along, and by more than rounding.
+static inline Mask are_along(const Rays* r) { return (fabs(r->shear_x) < 1.0f) & (fabs(r->shear_y) < 1.0f); }
+static inline Mask have_slabs_of(const Rays* r, const Rays* as) {
+  return (r->inverse.x == as->inverse.x) & (r->inverse.y == as->inverse.y) & (r->inverse.z == as->inverse.z);
 }
 
 // One in the middle of a packet.
 #define FACET_MIDDLE_RAY (FACET_PACKET / 2u + FACET_LANES / 2u)
 
-// Of the rays in one space, the parts' o and d in it, those that can be traced together there: whose main axis is
-// that of the ray `lead`. None if one cannot be used, or signs of their directions differ.
-static inline uint packet_in(const PacketPart* part, const Points* o, const Points* d, uint lead, float3 reach,
-                             PacketSpace* space) {
-  const float3 centre = (float3)(o->x.s0, o->y.s0, o->z.s0);
-  const float3 towards = point_in_lane(&d[lead / FACET_LANES], lead % FACET_LANES);
-  if (do_signs_differ(d, towards)) return 0u;
+// Whether rays whose directions have the same signs can be traced together in one space, `part` being as seen there, but
+// for their main axes: not if one cannot be used.
+static inline bool space_of_packet(const PacketPart* part, float3 towards, float3 reach, PacketSpace* space) {
+  const float3 centre = (float3)(part->o.x.s0, part->o.y.s0, part->o.z.s0);
   const uint axis = main_axis(towards);
   Real extent = in_all(0.0f), offsets = in_all(0.0f);
   for (uint k = 0u; k < FACET_PARTS; ++k) {
     Real e;
     Rays* r = &space->rays[k];
-    rays_of(r, axis, o[k], d[k], reach, &e);
+    rays_of(r, axis, part[k].o, part[k].d, reach, &e);
     extent = larger_each(e, extent);
     offsets += (r->near_offset.x + r->near_offset.y) + r->near_offset.z;
   }
+  space->others = 0u;
   // A sum is NaN or infinite where a term is, and an offset where o, d or their product is, but for an infinite
   // d: its inverse is 0, which beam_of finds.
-  if (!is_all(fabs(offsets) < INFINITY)) return 0u;
-  if (!beam_of(space->rays, part, centre, extent, &space->beam)) return 0u;
-  return have_one_axis(&space->beam) ? WHOLE_PACKET : rays_of_axis(space->rays, &space->beam);
+  if (!is_all(fabs(offsets) < INFINITY)) return false;
+  return beam_of(space->rays, part, centre, extent, &space->beam);
 }
 
-// The same in the world.
-static inline uint packet_in_world(const PacketPart* part, uint lead, float3 reach, PacketSpace* world) {
-  Points o[FACET_PARTS], d[FACET_PARTS];
-  for (uint k = 0u; k < FACET_PARTS; ++k) o[k] = part[k].o, d[k] = part[k].d;
-  world->place = FACET_NONE;
-  return packet_in(part, o, d, lead, reach, world);
+// Of rays that have more than one main axis those that have the packet's or that of the first that does not. Each
+// one's inverse is least on its main axis: if theirs is, none is more than the largest on any one axis.
+APART uint mix_axes(const PacketPart* part, float3 reach, PacketSpace* space) {
+  const int4 flat = are_flat(&space->beam);
+  if (is_none((Mask)(flat, flat))) return 0u;
+  uint along = 0u;
+  for (uint k = 0u; k < FACET_PARTS; ++k) along |= lanes_of(are_along(&space->rays[k])) << FACET_LANES * k;
+  if (along == WHOLE_PACKET) return along;
+  space->axis_of_others = main_axis(direction_of(part, first_lane(~along)));
+  for (uint k = 0u; k < FACET_PARTS; ++k) {
+    Rays seen, *r = &space->rays[k];
+    Real extent;
+    rays_of(&seen, space->axis_of_others, part[k].o, part[k].d, reach, &extent);
+    const Mask others = are_along(&seen) & have_slabs_of(&seen, r);
+    see_along(r, others, &seen);
+    space->others |= lanes_of(others) << FACET_LANES * k;
+  }
+  return along | space->others;
 }
 
-// The same; none also where they had better not go together.
+// Of the rays those that can be traced together. None if one cannot be used, if signs of their directions differ, or where
+// they had better not.
 APART uint packet_of(const PacketPart* part, float3 reach, PacketSpace* world) {
-  return can_go_together(part, reach) ? packet_in_world(part, FACET_MIDDLE_RAY, reach, world) : 0u;
+  const float3 towards = direction_of(part, FACET_MIDDLE_RAY);
+  if (do_signs_differ(part, towards) || !can_go_together(part, reach)) return 0u;
+  world->place = FACET_NONE;
+  if (!space_of_packet(part, towards, reach, world)) return 0u;
+  return have_one_axis(&world->beam) ? WHOLE_PACKET : mix_axes(part, reach, world);
 }
 
 // Those of a part's lanes among the packet's rays in `which`.
@@ -193,14 +212,17 @@ static inline Intervals box_intervals(const Rays* r, float3 lo, float3 hi) {
 static inline bool packet_in_instance(const Scene* s, uint place, const PacketPart* part,
                                       const PacketSpace* world, PacketSpace* inner) {
   __global const Instance* i = &s->instances[place];
-  Points o[FACET_PARTS], d[FACET_PARTS];
+  PacketPart inside[FACET_PARTS];  // o, d and tmin
   for (uint k = 0u; k < FACET_PARTS; ++k) {
     inner->outer[k] = box_intervals(&world->rays[k], vec_global(i->lo), vec_global(i->hi));
-    o[k] = map_points(i->object_from_world, part[k].o);
-    d[k] = map_vectors(i->object_from_world, part[k].d);
+    inside[k].o = map_points(i->object_from_world, part[k].o);
+    inside[k].d = map_vectors(i->object_from_world, part[k].d);
+    inside[k].tmin = part[k].tmin;
   }
   inner->place = place;
-  return packet_in(part, o, d, FACET_MIDDLE_RAY, vec_global(i->reach), inner) == WHOLE_PACKET;
+  const float3 towards = direction_of(inside, FACET_MIDDLE_RAY), reach = vec_global(i->reach);
+  if (do_signs_differ(inside, towards) || !space_of_packet(inside, towards, reach, inner)) return false;
+  return have_one_axis(&inner->beam) || mix_axes(inside, reach, inner) == WHOLE_PACKET;
 }
 
 #endif

@@ -59,8 +59,8 @@ static inline void cross_one(const Scene* s, PacketPart* p, const TriangleHits* 
 }
 #endif
 
-static inline void meet_one(const Scene* s, GEOMETRY positions, PacketPart* p, const Rays* r, Intervals outer,
-                            Triangles one, uint place, uint slot, uint mode) {
+INLINED void meet_one(const Scene* s, GEOMETRY positions, PacketPart* p, const Rays* r, Intervals outer,
+                      Triangles one, uint place, uint slot, uint mode) {
   if (is_none(may_be_within(r, one))) return;
   TriangleHits hits;
   Mask met = hit_triangles(r, one, outer, p->tmin, p->t, mode == FACET_CROSSINGS, &hits);
@@ -82,6 +82,35 @@ static inline void meet_one(const Scene* s, GEOMETRY positions, PacketPart* p, c
   p->det = met ? hits.det : p->det;
   p->slot = met ? (uint8)(slot) : p->slot;
   put_place(p, met, place);
+}
+
+// The parts' rays of which there are some in `rays`, and the triangles of a block in the lanes `left`. A literal:
+// `is_mixed`, whether rays have two main axes.
+INLINED void meet_each(const Scene* s, GEOMETRY positions, uint block, uint left, const PacketSpace* space,
+                       PacketPart* part, uint rays, uint mode, bool is_mixed) {
+  const Triangles triangles = triangles_from(positions, block);
+  for (; left != 0u; left = without_first(left)) {
+    const uint at = first_lane(left);
+    for (uint k = 0u; k < FACET_PARTS; ++k) {
+#ifdef FACET_NO_INSTANCES
+      const Intervals outer = {in_all(-INFINITY), in_all(INFINITY)};
+      const uint place = 0u;
+#else
+      const Intervals outer = space->outer[k];
+      const uint place = space->place;
+#endif
+      const Triangles one =
+          is_mixed ? mixed_triangle(triangles, at, lanes_among(space->others, k), space->axis_of_others)
+                   : one_triangle(triangles, at);
+      if (rays >> FACET_LANES * k & 0xffu)
+        meet_one(s, positions, &part[k], &space->rays[k], outer, one, place, FACET_LANES * block + at, mode);
+    }
+  }
+}
+
+APART void meet_mixed(const Scene* s, GEOMETRY positions, uint block, uint left, const PacketSpace* space,
+                      PacketPart* part, uint rays, uint mode) {
+  meet_each(s, positions, block, left, space, part, rays, mode, true);
 }
 
 #endif

@@ -55,7 +55,7 @@ APART void search_alone(const Scene* s, GEOMETRY positions, uint node, const Pac
                         PacketPart* p, uint lane, uint mode) {
   float *t = (float*)&p->t, *det = (float*)&p->det;
   uint* slot = (uint*)&p->slot;
-  Space space = space_in_lane(&in->rays[part], lane);
+  Space space = space_in_lane(&in->rays[part], axis_in_lane(in, part, lane), lane);
   Interval outer = {-INFINITY, INFINITY};
 #ifndef FACET_NO_INSTANCES
   if (in->place != FACET_NONE) {
@@ -120,26 +120,13 @@ static inline void all_alone(const Scene* s, GEOMETRY positions, uint node, cons
 static inline void meet_block(const Scene* s, GEOMETRY positions, uint leaf, const PacketSpace* space,
                               PacketPart* part, uint rays, float best, uint mode) {
   const uint block = FACET_LEAF_FIRST(leaf);
-  const Triangles triangles = triangles_from(positions, block);
-  uint left = triangles_in_beam(&space->beam, triangles, best), parts = 0u;
+  const uint left = triangles_in_beam(&space->beam, triangles_from(positions, block), best);
+  uint parts = 0u;
   for (uint k = 0u; k < FACET_PARTS; ++k) parts += (rays >> FACET_LANES * k & 0xffu) != 0u;
   if (popcount(rays) <= popcount(left) * parts / TESTS_OF_RAY)
     return all_alone(s, positions, leaf, space, part, rays, mode);
-  for (; left != 0u; left = without_first(left)) {
-    const uint at = first_lane(left);
-    for (uint k = 0u; k < FACET_PARTS; ++k) {
-#ifdef FACET_NO_INSTANCES
-      const Intervals outer = {in_all(-INFINITY), in_all(INFINITY)};
-      const uint place = 0u;
-#else
-      const Intervals outer = space->outer[k];
-      const uint place = space->place;
-#endif
-      if (rays >> FACET_LANES * k & 0xffu)
-        meet_one(s, positions, &part[k], &space->rays[k], outer, one_triangle(triangles, at), place,
-                 FACET_LANES * block + at, mode);
-    }
-  }
+  if (space->others != 0u) return meet_mixed(s, positions, block, left, space, part, rays, mode);
+  meet_each(s, positions, block, left, space, part, rays, mode, false);
 }
 
 // Takes from the stack the next child that rays meet, lane k of part j being bit FACET_LANES * j + k; false if
@@ -215,11 +202,13 @@ static inline void search_packet(const Scene* s, GEOMETRY positions, PacketSpace
   }
 }
 
-// The hit that a lane has met, its shares computed anew. `world` has the lane's rays there.
-static inline Query met_in_lane(const Scene* s, GEOMETRY positions, const PacketPart* p, const Rays* world,
-                                uint lane) {
+// The hit that a ray has met, its shares computed anew.
+static inline Query met_by(const Scene* s, GEOMETRY positions, const PacketPart* part, const PacketSpace* world,
+                           uint ray) {
+  const uint k = ray / FACET_LANES, lane = ray % FACET_LANES;
+  const PacketPart* p = &part[k];
   Query q = found_in_lane(p, lane);
-  Space space = space_in_lane(world, lane);
+  Space space = space_in_lane(&world->rays[k], axis_in_lane(world, k, lane), lane);
   finish(s, positions, point_in_lane(&p->o, lane), point_in_lane(&p->d, lane), &space, &q);
   return q;
 }

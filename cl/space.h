@@ -49,15 +49,15 @@ static inline bool space_of(Space* s, float3 o, float3 d, float3 reach) {
   return true;
 }
 
-// The rays of the lanes: one in all of them, or in the wide layout one in each. They have one main axis, and
-// turn alike.
+// The rays of the lanes: one in all of them, or in the wide layout one in each. They have one main axis, but where it
+// is said that others have another.
 typedef struct {
   Points o;  // in units of 2^e, the main axis in z's place
   Real shear_x, shear_y, unit, t_of_unit;
   Points inverse, near_offset, far_offset;  // slabs, each axis in its own place
   uint axis;
   Order order;  // of corners as seen along that axis
-  bool is_turned;
+  Mask is_turned;
 } Rays;
 
 static inline Rays in_all_lanes(const Space* s) {
@@ -72,20 +72,21 @@ static inline Rays in_all_lanes(const Space* s) {
   r.far_offset = point_in_all(s->slabs.far_offset);
   r.axis = s->axis;
   r.order = order_of(s->axis);
-  r.is_turned = s->is_turned;
+  r.is_turned = in_mask(s->is_turned);
   return r;
 }
 
 #ifdef FACET_WIDE
 
-static inline Space space_in_lane(const Rays* r, uint lane) {
+// Given that lane's main axis.
+static inline Space space_in_lane(const Rays* r, uint axis, uint lane) {
   Space s;
-  s.o = swapped(r->axis, point_in_lane(&r->o, lane));
+  s.o = swapped(axis, point_in_lane(&r->o, lane));
   s.slabs.inverse = point_in_lane(&r->inverse, lane);
   s.slabs.near_offset = point_in_lane(&r->near_offset, lane);
   s.slabs.far_offset = point_in_lane(&r->far_offset, lane);
-  s.axis = r->axis;
-  s.is_turned = r->is_turned;
+  s.axis = axis;
+  s.is_turned = ((const int*)&r->is_turned)[lane];
   s.shear = (float2)(stored_lane(&r->shear_x, lane), stored_lane(&r->shear_y, lane));
   s.unit = stored_lane(&r->unit, lane);
   s.t_of_unit = stored_lane(&r->t_of_unit, lane);
@@ -122,7 +123,7 @@ static inline void rays_of(Rays* r, uint axis, Points o, Points d, float3 reach,
   const Points main = swapped_points(axis, d);
   r->axis = axis;
   r->order = order_of(axis);
-  r->is_turned = (main.z.s0 < 0.0f) != (axis != 2u);
+  r->is_turned = in_mask((main.z.s0 < 0.0f) != (axis != 2u));
   r->shear_x = main.x / main.z;
   r->shear_y = main.y / main.z;
   slabs_in_lanes(o, d, reach, fabs(main.z), &r->inverse, &r->near_offset, &r->far_offset, extent);
@@ -130,6 +131,15 @@ static inline void rays_of(Rays* r, uint axis, Points o, Points d, float3 reach,
   r->unit = as_float8(0x7f000000u - exponent);
   r->o = scaled_points(r->unit, swapped_points(axis, o));
   r->t_of_unit = swapped_points(axis, r->inverse).z * as_float8(exponent);
+}
+
+// Takes for those lanes the same rays as seen along another axis. Slabs are alike.
+static inline void see_along(Rays* r, Mask others, const Rays* seen) {
+  r->o = chosen_points(others, seen->o, r->o);
+  r->shear_x = others ? seen->shear_x : r->shear_x;
+  r->shear_y = others ? seen->shear_y : r->shear_y;
+  r->t_of_unit = others ? seen->t_of_unit : r->t_of_unit;
+  r->is_turned = others ? seen->is_turned : r->is_turned;
 }
 
 #endif

@@ -59,7 +59,7 @@ static inline Query query_in_lane(const Scene* s, GEOMETRY positions, const Pack
   if (mode == FACET_CLOSEST) {
     const float det = stored_lane(&p->det, lane);
     if (q.slot == FACET_NONE) return q;
-    if (det == 0.0f) return met_in_lane(s, positions, p, &world->rays[i / FACET_LANES], lane);
+    if (det == 0.0f) return met_by(s, positions, part, world, i);
     q.u = stored_lane(&p->v, lane) / det;
     q.v = stored_lane(&p->w, lane) / det;
     q.triangle = s->infos[q.slot].triangle;

@@ -11,7 +11,7 @@ static inline void find_shares(const Scene* s, GEOMETRY positions, PacketPart* p
     PacketPart* p = &part[k];
     for (uint lanes = lanes_of((p->slot != FACET_NONE) & (p->det == 0.0f)); lanes != 0u; lanes = without_first(lanes)) {
       const uint lane = first_lane(lanes);
-      const Query q = met_in_lane(s, positions, p, &world->rays[k], lane);
+      const Query q = met_by(s, positions, part, world, FACET_LANES * k + lane);
       ((float*)&p->v)[lane] = q.u;
       ((float*)&p->w)[lane] = q.v;
       ((float*)&p->det)[lane] = 1.0f;
@@ -69,36 +69,7 @@ static inline void fetch_rays(__global const Ray* rays) {
   fetch_lines(next + 24, 256u);
 }
 
-// Rays of a packet whose main axes differ: those of one after those of another.
-typedef struct {
-  Real t[FACET_PARTS];  // of those that have been searched for what they met, of the others how far they look
-  uint left;            // the others
-} Turns;
-
-APART void begin_turns(Turns* u, uint together, PacketPart* part) {
-  for (uint k = 0u; k < FACET_PARTS; ++k) u->t[k] = part[k].t;
-  u->left = WHOLE_PACKET;
-  leave_out(part, ~together);
-}
-
-// After a search of those in `together`: gives those that go next, or none if too few are left for a packet.
-APART uint next_turn(Turns* u, uint together, float3 reach, PacketPart* part, PacketSpace* world) {
-  u->left &= ~together;
-  for (uint k = 0u; k < FACET_PARTS; ++k) {
-    const Real t = u->t[k];
-    u->t[k] = lanes_among(together, k) ? part[k].t : t;
-    part[k].t = t;
-  }
-  const uint next = popcount(u->left) < FEW_ALIKE ? 0u : u->left & packet_in_world(part, first_lane(u->left), reach, world);
-  if (next != 0u)
-    leave_out(part, ~next);
-  else
-    for (uint k = 0u; k < FACET_PARTS; ++k) part[k].t = u->t[k];
-  return next;
-}
-
-// Traces those of FACET_PACKET rays that go together; then those that only have another main axis do. Gives the others,
-// of whose hits nothing is known.
+// Traces those of FACET_PACKET rays that go together. Gives the others, of whose hits nothing is known.
 static inline uint trace_packet(const Scene* s, GEOMETRY positions, __global const Ray* rays, uint mode,
                                 __global Hit* hits, __global uint* hit_instances) {
   PacketPart part[FACET_PARTS];
@@ -106,21 +77,14 @@ static inline uint trace_packet(const Scene* s, GEOMETRY positions, __global con
   if (s->triangle_count == 0u) return WHOLE_PACKET;
   fetch_rays(rays);
   for (uint k = 0u; k < FACET_PARTS; ++k) read_part(rays + FACET_LANES * k, &part[k]);
-  uint together = packet_of(part, s->reach, &world);
+  const uint together = packet_of(part, s->reach, &world);
   if (together == 0u) return WHOLE_PACKET;
-  Turns turns;
-  turns.left = 0u;
-  if (together != WHOLE_PACKET) begin_turns(&turns, together, part);
-  for (;;) {
-    search_packet(s, positions, &world, together, mode, part);
-    if (mode == FACET_CLOSEST) find_shares(s, positions, part, &world);
-    if (turns.left == 0u) break;
-    together = next_turn(&turns, together, s->reach, part, &world);
-    if (together == 0u) break;
-  }
+  if (together != WHOLE_PACKET) leave_out(part, ~together);
+  search_packet(s, positions, &world, together, mode, part);
+  if (mode == FACET_CLOSEST) find_shares(s, positions, part, &world);
   for (uint k = 0u; k < FACET_PARTS; ++k)
     write_part(s, &part[k], mode, hits + FACET_LANES * k, hit_instances + FACET_LANES * k);
-  return turns.left;
+  return ~together;
 }
 
 APART void trace_alone(const Scene* s, GEOMETRY positions, __global const Ray* rays, uint which, uint mode,

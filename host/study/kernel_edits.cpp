@@ -46,7 +46,8 @@ INLINED Mask hit_triangles(const Rays* r, Triangles t, Intervals outer, Real tmi
   if (is_none(met)) return met;
   hits->t = dot_each(e2, q) * inverse;
   hits->v = u, hits->w = v, hits->det = in_all(1.0f);
-  hits->is_front = r->axis == 2u ? inverse > 0.0f : inverse < 0.0f;
+  const Mask is_swapped = r->is_turned ? !(d.z < 0.0f) : d.z < 0.0f;
+  hits->is_front = is_swapped ? inverse < 0.0f : inverse > 0.0f;
   hits->is_counted = met;
   return met & (hits->t >= tmin) & (hits->t <= tmax);
 }
@@ -71,25 +72,28 @@ const char* const end_of_shares =
 }  // namespace
 
 kernel_edits with_direction() {
-  return {
-      {"space.h", "  float3 o;  ", "  float3 direction, origin, o;"},
-      {"space.h", "  s->o = s->unit * o;\n",
-       "  s->o = s->unit * o;\n  s->direction = d;\n  s->origin = o;\n"},
-      {"space.h", "  Points o;  //", "  Points direction, origin, o;  //"},
-      {"space.h", "  r.shear_x = ",
-       "  r.direction = point_in_all(swapped(s->axis, s->direction));\n"
-       "  r.origin = point_in_all(swapped(s->axis, s->origin));\n  r.shear_x = "},
-      {"space.h", "  r->shear_x = ",
-       "  r->direction = main;\n  r->origin = swapped_points(axis, o);\n  r->shear_x = "},
-      {"space.h", "  s.axis = r->axis;\n",
-       "  s.direction = swapped(r->axis, point_in_lane(&r->direction, lane));\n"
-       "  s.origin = swapped(r->axis, point_in_lane(&r->origin, lane));\n  s.axis = r->axis;\n"},
-      // 1 / d_z is t_of_unit * unit, and rounded; the origin was scaled by a power of two.
-      {"stream.h", "  r.order.x = ray->order[0]",
-       "  r.origin = scaled_points(1.0f / r.unit, r.o);\n"
-       "  r.direction.z = 1.0f / (r.t_of_unit * r.unit);\n"
-       "  r.direction.x = r.shear_x * r.direction.z;\n"
-       "  r.direction.y = r.shear_y * r.direction.z;\n  r.order.x = ray->order[0]"}};
+  return {{"space.h", "  float3 o;  ", "  float3 direction, origin, o;"},
+          {"space.h", "  s->o = s->unit * o;\n",
+           "  s->o = s->unit * o;\n  s->direction = d;\n  s->origin = o;\n"},
+          {"space.h", "  Points o;  //", "  Points direction, origin, o;  //"},
+          {"space.h", "  r.shear_x = ",
+           "  r.direction = point_in_all(swapped(s->axis, s->direction));\n"
+           "  r.origin = point_in_all(swapped(s->axis, s->origin));\n  r.shear_x = "},
+          {"space.h", "  r->shear_x = main.x",
+           "  r->direction = main;\n  r->origin = swapped_points(axis, o);\n  r->shear_x = main.x"},
+          {"space.h", "  s.axis = axis;\n",
+           "  s.direction = swapped(axis, point_in_lane(&r->direction, lane));\n"
+           "  s.origin = swapped(axis, point_in_lane(&r->origin, lane));\n  s.axis = axis;\n"},
+          {"space.h", "  r->o = chosen_points(others, seen->o, r->o);\n",
+           "  r->o = chosen_points(others, seen->o, r->o);\n"
+           "  r->origin = chosen_points(others, seen->origin, r->origin);\n"
+           "  r->direction = chosen_points(others, seen->direction, r->direction);\n"},
+          // 1 / d_z is t_of_unit * unit, and rounded; the origin was scaled by a power of two.
+          {"stream.h", "  r.order.x = ray->order[0]",
+           "  r.origin = scaled_points(1.0f / r.unit, r.o);\n"
+           "  r.direction.z = 1.0f / (r.t_of_unit * r.unit);\n"
+           "  r.direction.x = r.shear_x * r.direction.z;\n"
+           "  r.direction.y = r.shear_y * r.direction.z;\n  r.order.x = ray->order[0]"}};
 }
 
 kernel_edits moller_trumbore_test() {

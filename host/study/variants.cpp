@@ -26,12 +26,10 @@ kernel_edits unchecked() {
           {"box.h", "is_known = fabs(c) < INFINITY;", "is_known = (int3)(-1);"},
           {"packet.h", "is_all(has_way & is_narrow)", "is_all(is_narrow)"},
           {"stream.h", "which & lanes_of(s.usable & (tmin <= tmax))", "which"},
-          {"packet.h", "if (!is_all(fabs(offsets) < INFINITY)) return 0u;", ""},
-          {"packet.h", "if (!beam_of(space->rays, part, centre, extent, &space->beam)) return 0u;",
-           "beam_of(space->rays, part, centre, extent, &space->beam);"},
-          {"packet.h",
-           "have_one_axis(&space->beam) ? WHOLE_PACKET : rays_of_axis(space->rays, &space->beam)",
-           "WHOLE_PACKET"}};
+          {"packet.h", "if (!is_all(fabs(offsets) < INFINITY)) return false;", ""},
+          {"packet.h", "return beam_of(space->rays, part, centre, extent, &space->beam);",
+           "beam_of(space->rays, part, centre, extent, &space->beam);\n  return true;"},
+          {"beam.h", "return !is_none((Mask)(is_main, is_main));", "return true;"}};
 }
 
 }  // namespace

@@ -132,51 +132,6 @@ TEST_CASE("packets: rays among which one is odd give the reference's bits") {
   CHECK(differing_from_reference(s, rays, in_packets()) == 0);
 }
 
-TEST_CASE("packets: rays of another main axis than most go as a packet of their own") {
-  const mesh m = test::random_soup(500, 4);
-  const scene s = test::one_mesh(m);
-  test::random r(6);
-  std::vector<ray> rays;
-  for (std::size_t g = 0; g < 200; ++g) {
-    const vec3f from = r.in_cube() * 2.0f;
-    vec3f towards{1, 1 + 0.06f * r.in_cube().x, 0.2f};
-    std::swap(towards.z, towards[int(g % 3)]);
-    for (int k = 0; k < 3; ++k) towards[k] = std::copysign(towards[k], -from[k]);
-    for (std::size_t k = 0; k < packet; ++k) {
-      const vec3f d = towards + r.in_cube() * 0.05f;
-      rays.push_back({{from.x, from.y, from.z}, 0, {d.x, d.y, d.z}, INFINITY});
-    }
-  }
-  CHECK(differing_from_reference(s, rays, in_packets()) == 0);
-  const std::size_t met = hits_of(s, rays, in_packets());
-  CHECK(met > rays.size() / 4);
-  // Rays go all ways: hits are lost without packets, without the second ones, and without those too
-  // few for one.
-  const auto left_out = [&](const char* file, const char* text) {
-    options without = in_packets();
-    without.edits = {{file, text, ""}};
-    return hits_of(s, rays, without);
-  };
-  CHECK(left_out("trace_packet.h", "search_packet(s, positions, &world, together, mode, part);") <
-        met / 4);
-  const char* of_second = "part[k].t = t;";
-  CHECK(left_out("trace_packet.h", of_second) < 9 * met / 10);
-  CHECK(left_out("trace_packet.h", of_second) > met / 4);
-  options wrong = in_packets();
-  wrong.edits = {
-      {"trace_packet.h", "const Query q = traced_query(s, positions, rays + i, mode);",
-       "Query q = traced_query(s, positions, rays + i, mode);\n    q.triangle = FACET_NONE;"}};
-  CHECK(hits_of(s, rays, wrong) < met);
-  CHECK(hits_of(s, rays, wrong) > met / 2);
-  // They are the same where there are none.
-  options once = in_packets();
-  once.edits = {{"trace_packet.h", "popcount(u->left) < FEW_ALIKE", "true"}};
-  CHECK(differing_from_reference(s, rays, once) == 0);
-  // With the packet's main axis in place of their own they do not get their own bits.
-  wrong.edits = {{"packet.h", "rays_of_axis(space->rays, &space->beam)", "WHOLE_PACKET"}};
-  CHECK(differing_from_reference(s, rays, wrong) > 0);
-}
-
 TEST_CASE("packets: a ray that cannot be used is counted, and meets nothing; the others hit") {
   const scene s = test::one_mesh(generate("box", {{"size", 2}}));
   const ray bad[] = {
