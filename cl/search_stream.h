@@ -126,7 +126,8 @@ static inline void enter_node(const Scene* s, GEOMETRY positions, __global Strea
   }
 }
 
-APART void meet_leaf(const Scene* s, GEOMETRY positions, __global Stream* x, uint block, uint begin, uint count,
+// Gives the lanes of which some ray's are doubtful (stream.h).
+APART uint meet_leaf(const Scene* s, GEOMETRY positions, __global Stream* x, uint block, uint begin, uint count,
                      uint mode) {
   Mask doubtful = (Mask)(0);
   for (uint i = begin; i < begin + count; ++i) {
@@ -134,10 +135,7 @@ APART void meet_leaf(const Scene* s, GEOMETRY positions, __global Stream* x, uin
     if (mode == FACET_ANY && x->ray[ray].slot != FACET_NONE) continue;
     meet_block_alone(s, positions, block, &x->ray[ray], &x->rest[ray], mode, &doubtful);
   }
-  // Asked of all rays at once: hardly ever is there any doubt.
-  if (is_none(doubtful)) return;
-  for (uint i = begin; i < begin + count; ++i)
-    settle_block_alone(s, positions, block, &x->ray[x->list[i]], &x->rest[x->list[i]], mode);
+  return lanes_of(doubtful);
 }
 
 // Depth first: so the lists that wait lie in memory as their children's do on the stack, and a list's place is free
@@ -145,17 +143,19 @@ APART void meet_leaf(const Scene* s, GEOMETRY positions, __global Stream* x, uin
 //
 // A node leaves at most seven lists waiting: FACET_STACK is enough, as it is for search_wide.h, and eight places more
 // for children without rays.
-APART void search_list(const Scene* s, GEOMETRY positions, __global Stream* x, uint count, Sides near_at, uint mode) {
+//
+// As meet_leaf.
+APART uint search_list(const Scene* s, GEOMETRY positions, __global Stream* x, uint count, Sides near_at, uint mode) {
   Lists lists;
   Walkers alone;
-  alone.count = 0u;
+  alone.count = alone.doubtful = 0u;
   lists.top = 0;
   uint node = s->root, begin = 0u;
   for (;;) {
     if (count == 1u)
       add_walker(s, positions, x, &alone, node, x->list[begin], mode);
     else if (node & FACET_LEAF_BIT)
-      meet_leaf(s, positions, x, FACET_LEAF_FIRST(node), begin, count, mode);
+      alone.doubtful |= meet_leaf(s, positions, x, FACET_LEAF_FIRST(node), begin, count, mode);
     else
       enter_node(s, positions, x, &lists, node, begin, count, near_at, &alone, mode);
     if (lists.top == 0) break;
@@ -163,21 +163,25 @@ APART void search_list(const Scene* s, GEOMETRY positions, __global Stream* x, u
     node = w.node, begin = w.begin, count = w.count;
   }
   walk(s, positions, x, &alone, mode);
+  return alone.doubtful;
 }
 
-// All `count` rays of a stream, kind by kind: those of one meet the same sides of boxes first.
-static inline void search_stream(const Scene* s, GEOMETRY positions, __global Stream* x, uint count, uint mode) {
+// All `count` rays of a stream, kind by kind: those of one meet the same sides of boxes first. False if there is any
+// doubt about what they have met, which hardly ever is.
+static inline bool search_stream(const Scene* s, GEOMETRY positions, __global Stream* x, uint count, uint mode) {
   uint of_kind[8] = {0u}, end[8], sum = 0u;
   for (uint i = 0u; i < count; ++i) ++of_kind[x->kind[i]];
   for (uint kind = 0u; kind < 8u; ++kind) end[kind] = sum, sum += of_kind[kind];
+  uint doubtful = 0u;
   for (uint i = 0u; i < count; ++i) x->order[end[x->kind[i]]++] = i;
   for (uint kind = 0u; kind < 8u; ++kind) {
     const uint alike = of_kind[kind], first = end[kind] - alike;
     if (alike == 0u) continue;
     for (uint i = 0u; i < alike; ++i) x->list[i] = x->order[first + i];
     const Sides near_at = {kind & 1u ? FACET_SIDE : 0u, kind & 2u ? FACET_SIDE : 0u, kind & 4u ? FACET_SIDE : 0u};
-    search_list(s, positions, x, alike, near_at, mode);
+    doubtful |= search_list(s, positions, x, alike, near_at, mode);
   }
+  return doubtful == 0u;
 }
 
 #endif

@@ -112,7 +112,8 @@ INLINED void take_lanes(const Scene* s, uint block, const TriangleHits* hits, ui
   }
 }
 
-// A block's triangles and a ray. Those that are doubtful are left, and added to `doubtful`.
+// A block's triangles and a ray. Those that are doubtful are left, and added to `doubtful`: the ray is to be traced by
+// itself then.
 INLINED void meet_block_alone(const Scene* s, GEOMETRY positions, uint block, __global StreamRay* ray,
                               __global StreamRest* rest, uint mode, Mask* doubtful) {
   const Intervals outer = {in_all(-INFINITY), in_all(INFINITY)};
@@ -123,19 +124,6 @@ INLINED void meet_block_alone(const Scene* s, GEOMETRY positions, uint block, __
   *doubtful |= hits.is_doubtful;
   const uint left = lanes_of(met);
   if (left != 0u) take_lanes(s, block, &hits, left & ~lanes_of(hits.is_doubtful), ray, rest, mode);
-}
-
-// The same of the doubtful ones, too. That some are taken in again changes nothing.
-APART void settle_block_alone(const Scene* s, GEOMETRY positions, uint block, __global StreamRay* ray,
-                              __global StreamRest* rest, uint mode) {
-  const Intervals outer = {in_all(-INFINITY), in_all(INFINITY)};
-  const Rays r = rays_in_stream(ray, rest);
-  const Triangles triangles = triangles_from(positions, block);
-  const Real from = in_all(ray->tmin), to = in_all(ray->t);
-  TriangleHits hits;
-  const Mask met = hit_triangles(&r, triangles, outer, from, to, false, &hits);
-  take_lanes(s, block, &hits, lanes_of(settle_doubts(&r, positions, triangles, outer, from, to, met, &hits)), ray, rest,
-             mode);
 }
 
 #endif

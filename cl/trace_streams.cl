@@ -35,6 +35,15 @@ static inline Hit found_in_stream(const Scene* s, __global const StreamRay* ray,
   return h;
 }
 
+// The rays of a stream, each by itself.
+APART void trace_each(const Scene* s, GEOMETRY positions, __global const Ray* rays, __global const Stream* x,
+                      uint count, uint mode, __global Hit* hits, __global uint* hit_instances) {
+  for (uint i = 0u; i < count; ++i) {
+    const uint from = x->rest[i].from;
+    trace_alone(s, positions, rays + from, 1u, mode, hits + from, hit_instances + from);
+  }
+}
+
 // At most FACET_STREAM rays.
 static inline void trace_chunk(const Scene* s, GEOMETRY positions, __global const Ray* rays, uint count, uint mode,
                                __global Hit* hits, __global uint* hit_instances, __global Stream* x) {
@@ -48,7 +57,8 @@ static inline void trace_chunk(const Scene* s, GEOMETRY positions, __global cons
     const uint left = trace_packet(s, positions, rays + first, mode, hits + first, hit_instances + first);
     if (left != 0u) take_up(s, positions, rays, first, left, mode, hits, hit_instances, x, &taken);
   }
-  search_stream(s, positions, x, taken, mode);
+  if (!search_stream(s, positions, x, taken, mode))
+    return trace_each(s, positions, rays, x, taken, mode, hits, hit_instances);
   for (uint i = 0u; i < taken; ++i)
     hits[x->rest[i].from] = found_in_stream(s, &x->ray[i], &x->rest[i], mode);
 }

@@ -13,7 +13,7 @@
 // Those that wait: rays, and the nodes to go on from.
 typedef struct {
   uint node[WALKS_WAIT], ray[WALKS_WAIT];
-  uint count;
+  uint count, doubtful;  // doubtful: search_stream.h, meet_leaf
 } Walkers;
 
 typedef struct {
@@ -25,13 +25,10 @@ typedef struct {
 } Walk;
 
 // A node or a leaf further; false at the end.
-static inline bool walk_on(const Scene* s, GEOMETRY positions, Walk* w, uint mode) {
+static inline bool walk_on(const Scene* s, GEOMETRY positions, Walk* w, uint mode, Mask* doubtful) {
   __global StreamRay* r = w->ray;
   if (w->node & FACET_LEAF_BIT) {
-    const uint block = FACET_LEAF_FIRST(w->node);
-    Mask doubtful = (Mask)(0);
-    meet_block_alone(s, positions, block, r, w->rest, mode, &doubtful);
-    if (!is_none(doubtful)) settle_block_alone(s, positions, block, r, w->rest, mode);
+    meet_block_alone(s, positions, FACET_LEAF_FIRST(w->node), r, w->rest, mode, doubtful);
   } else {
     __global const WideNode* n = s->nodes + w->node;
     Slabs slabs;
@@ -72,17 +69,19 @@ static inline bool begin_walk(__global Stream* x, const Walkers* all, uint* next
 APART void walk(const Scene* s, GEOMETRY positions, __global Stream* x, Walkers* all, uint mode) {
   Walk walks[WALKS];
   uint place[WALKS], going = 0u, next = 0u;
+  Mask doubtful = (Mask)(0);
   while (going < WALKS && begin_walk(x, all, &next, &walks[going])) place[going] = going, ++going;
   while (going > 0u) {
     for (uint k = 0u; k < going;) {
       Walk* w = &walks[place[k]];
-      if (walk_on(s, positions, w, mode) || begin_walk(x, all, &next, w))
+      if (walk_on(s, positions, w, mode, &doubtful) || begin_walk(x, all, &next, w))
         ++k;
       else
         place[k] = place[--going];
     }
   }
   all->count = 0u;
+  all->doubtful |= lanes_of(doubtful);
 }
 
 static inline void add_walker(const Scene* s, GEOMETRY positions, __global Stream* x, Walkers* all, uint node, uint ray,

@@ -20,7 +20,7 @@ static inline Points less(Points a, Points b) {
   return c;
 }
 
-static inline Points first_corner(Triangles t, const Rays* r, Points* e1, Points* e2) {
+INLINED Points first_corner(Triangles t, const Rays* r, Points* e1, Points* e2) {
   const Points p0 = swapped_corner(t, 0, r->order);
   *e1 = less(swapped_corner(t, 1, r->order), p0);
   *e2 = less(swapped_corner(t, 2, r->order), p0);
