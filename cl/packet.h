@@ -132,8 +132,8 @@ static inline Mask have_slabs_of(const Rays* r, const Rays* as) {
 // One in the middle of a packet.
 #define FACET_MIDDLE_RAY (FACET_PACKET / 2u + FACET_LANES / 2u)
 
-// Whether rays whose directions have the same signs can be traced together in one space, `part` being as seen there, but
-// for their main axes: not if one cannot be used.
+// Whether rays whose directions have the same signs can be traced together in a space as far as boxes go: not if one
+// cannot be used. Of the parts, as seen there, o, d and tmin are asked; triangles ask for the main axis, too.
 static inline bool space_of_packet(const PacketPart* part, float3 towards, float3 reach, PacketSpace* space) {
   const float3 centre = (float3)(part->o.x.s0, part->o.y.s0, part->o.z.s0);
   const uint axis = main_axis(towards);
@@ -172,8 +172,8 @@ APART uint mix_axes(const PacketPart* part, float3 reach, PacketSpace* space) {
   return along | space->others;
 }
 
-// Of the rays those that can be traced together. None if one cannot be used, if signs of their directions differ, or where
-// they had better not.
+// Of the rays those that can be traced together. None if one cannot be used, if signs of their directions differ, or
+// where they had better not.
 APART uint packet_of(const PacketPart* part, float3 reach, PacketSpace* world) {
   const float3 towards = direction_of(part, FACET_MIDDLE_RAY);
   if (do_signs_differ(part, towards) || !can_go_together(part, reach)) return 0u;
