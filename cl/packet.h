@@ -125,6 +125,7 @@ static inline bool can_go_together(const PacketPart* part, float3 reach) {
 
 // Those whose main axis is the one that they are seen along, and by more than rounding.
 static inline Mask are_along(const Rays* r) { return (fabs(r->shear_x) < 1.0f) & (fabs(r->shear_y) < 1.0f); }
+// Those whose slabs are the same bits.
 static inline Mask have_slabs_of(const Rays* r, const Rays* as) {
   return (r->inverse.x == as->inverse.x) & (r->inverse.y == as->inverse.y) & (r->inverse.z == as->inverse.z);
 }

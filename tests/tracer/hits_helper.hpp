@@ -11,6 +11,14 @@
 
 namespace facet::test {
 
+/// Rays traced together where they can be.
+inline tracer::options in_packets() {
+  tracer::options o;
+  o.layout = tracer::layout_kind::wide;
+  o.packets = tracer::packet_kind::on;
+  return o;
+}
+
 /// Rays whose closest hit has other bits than the reference's, or of which any hit says otherwise
 /// whether there is one.
 inline std::size_t differing_from_reference(const scene& s, const std::vector<tracer::ray>& rays,

@@ -12,17 +12,11 @@
 using namespace facet;
 using test::differing_from_reference;
 using test::hits_of;
+using test::in_packets;
 using tracer::options;
 using tracer::ray;
 
 namespace {
-
-options in_packets() {
-  options o;
-  o.layout = tracer::layout_kind::wide;
-  o.packets = tracer::packet_kind::on;
-  return o;
-}
 
 options edited(const char* file, const char* from, const char* to) {
   options o = in_packets();

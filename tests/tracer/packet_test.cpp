@@ -14,6 +14,7 @@
 using namespace facet;
 using test::differing_from_reference;
 using test::hits_of;
+using test::in_packets;
 using tracer::device_scene;
 using tracer::hit;
 using tracer::options;
@@ -23,13 +24,6 @@ using tracer::ray;
 namespace {
 
 constexpr std::size_t packet = FACET_PACKET;
-
-options in_packets() {
-  options o;
-  o.layout = tracer::layout_kind::wide;
-  o.packets = packet_kind::on;
-  return o;
-}
 
 /// Packet after packet, each towards a corner, a point of an edge or any point of the mesh: all at
 /// that point itself or spread around it, from one point or from several close to one another.

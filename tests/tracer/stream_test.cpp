@@ -29,9 +29,7 @@ bool is_skipped() {
 }
 
 options in_streams() {
-  options o;
-  o.layout = tracer::layout_kind::wide;
-  o.packets = packet_kind::on;
+  options o = test::in_packets();
   o.streams = stream_kind::on;
   return o;
 }
